@@ -116,7 +116,7 @@ void add_method_options(CLI::App& app, Settings& settings)
                "--" + name,
                [&settings, name](const std::string& value) { settings.given.values[name] = value; },
                option.info->help)
-            ->type_name(option.info->type);
+            ->type_name(option.info->type());
     }
     app.add_option("--sky-directions", settings.sky_directions,
                    "directions from which the light of the sky is gathered")

@@ -32,14 +32,24 @@ function(lumel_wing name)
     target_link_libraries(lumel_${name} PUBLIC ${used} PRIVATE ${WING_SYSTEM})
 endfunction()
 
+# Seconds that each test took when `./test --record` ran last: ctest starts the longest first.
+set(LUMEL_DURATIONS ${PROJECT_SOURCE_DIR}/tests/durations.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${LUMEL_DURATIONS})
+file(STRINGS ${LUMEL_DURATIONS} lines REGEX "^[^#]")
+foreach(line ${lines})
+    string(REPLACE " " ";" line "${line}")
+    list(GET line 0 name)
+    list(GET line 1 LUMEL_SECONDS_${name})
+endforeach()
+
 # lumel_test(<name> [LABEL <label>] SOURCES … USES <wing> … [PARTS "<part> <label> <filter>" …]
-#            [UNDER <command> <argument> …]):
+#            [UNDER <command> <argument> …] [SANITIZE]):
 # one GoogleTest program under tests/ and what ctest runs of it. A part is the tests of a filter
 # (that of --gtest_filter) in a process of their own; what no part has is one more, of the program's name.
-# UNDER: what ctest runs the program by.
+# UNDER: what ctest runs the program by. SANITIZE: `./test --sanitize` runs what is not slow of it.
 # Labels: `quick` ends in a minute with all others of its kind, `normal`, and `slow`.
 function(lumel_test name)
-    cmake_parse_arguments(TEST "" "LABEL" "SOURCES;USES;SYSTEM;PARTS;UNDER" ${ARGN})
+    cmake_parse_arguments(TEST "SANITIZE" "LABEL" "SOURCES;USES;SYSTEM;PARTS;UNDER" ${ARGN})
     add_executable(${name} ${TEST_SOURCES})
     lumel_flags(${name} HEADERS lumel_test_headers)
     list(TRANSFORM TEST_USES PREPEND lumel_)
@@ -49,22 +59,33 @@ function(lumel_test name)
     foreach(part ${TEST_PARTS})
         string(REGEX MATCH "^([^ ]+) ([a-z]+) (.+)$" matched "${part}")
         set(filter ${CMAKE_MATCH_3})
-        lumel_test_entry(${name}.${CMAKE_MATCH_1} ${CMAKE_MATCH_2} ${name} --gtest_filter=${filter}
+        set(labels ${CMAKE_MATCH_2})
+        if(TEST_SANITIZE AND NOT labels STREQUAL slow)
+            list(APPEND labels sanitize)
+        endif()
+        lumel_test_entry(${name}.${CMAKE_MATCH_1} "${labels}" ${name} --gtest_filter=${filter}
                          UNDER ${TEST_UNDER})
         string(APPEND rest ":${filter}")
     endforeach()
-    if(NOT TEST_LABEL)
-        set(TEST_LABEL normal)
+    set(labels normal)
+    if(TEST_LABEL)
+        set(labels ${TEST_LABEL})
     endif()
-    lumel_test_entry(${name} ${TEST_LABEL} ${name} --gtest_filter=${rest} UNDER ${TEST_UNDER})
+    if(TEST_SANITIZE)
+        list(APPEND labels sanitize)
+    endif()
+    lumel_test_entry(${name} "${labels}" ${name} --gtest_filter=${rest} UNDER ${TEST_UNDER})
+    if(TEST_SANITIZE)
+        add_dependencies(sanitize_tests ${name})
+    endif()
     list(TRANSFORM TEST_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
     list(JOIN sources " " sources)
     set_property(GLOBAL APPEND PROPERTY LUMEL_TEST_PROGRAMS "${name} $<TARGET_FILE:${name}> ${sources}")
 endfunction()
 
-# lumel_test_entry(<name> <label> <program> <argument> … [UNDER <command> …]): what ctest runs. ./test limits
+# lumel_test_entry(<name> <labels> <program> <argument> … [UNDER <command> …]): what ctest runs. ./test limits
 # processor time; the limit here, by the clock, is for what hangs.
-function(lumel_test_entry name label program)
+function(lumel_test_entry name labels program)
     cmake_parse_arguments(ENTRY "" "" "UNDER" ${ARGN})
     if(ENTRY_UNDER)
         list(APPEND ENTRY_UNDER $<TARGET_FILE:${program}>)
@@ -72,9 +93,12 @@ function(lumel_test_entry name label program)
         set(ENTRY_UNDER ${program})
     endif()
     add_test(NAME ${name} COMMAND ${ENTRY_UNDER} ${ENTRY_UNPARSED_ARGUMENTS})
-    set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 7200
+    set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT 7200
                          FAIL_REGULAR_EXPRESSION "Running 0 tests")
-    if(label STREQUAL quick)
+    if(DEFINED LUMEL_SECONDS_${name})
+        set_tests_properties(${name} PROPERTIES COST ${LUMEL_SECONDS_${name}})
+    endif()
+    if("quick" IN_LIST labels)
         add_dependencies(quick_tests ${program})
     endif()
 endfunction()

@@ -1,79 +1,66 @@
-// The command line as a whole: all commands, and what becomes of a line that is none of them.
+// The command line as a whole: all commands, and the values given to one of them.
 
 #include "arguments.h"
 
-#include <vector>
-
-#include <CLI/CLI.hpp>
-#include <fmt/core.h>
-
-#include "base/core/error.h"
 #include "command.h"
 #include "manual.h"
+#include "parser.h"
 #include "shared_options.h"
-#include "suggestion.h"
 
 namespace lumel {
 namespace {
 
-/// What the parser did not accept, as one sentence.
-std::string complaint(const CLI::App& program, const CLI::ParseError& error)
-{
-    const auto given = program.get_subcommands();
-    const CLI::App& command = given.empty() ? program : *given.front();
-    const std::string path =
-        given.empty() ? program.get_name() : program.get_name() + " " + command.get_name();
-    const std::vector<std::string> extras = program.remaining(true);
-    for (const std::string& word : extras)
-        if (word.starts_with('-'))
-            return unknown_option(command, path, word);
-    if (!extras.empty() && given.empty())
-        return unknown_command(program, extras.front());
-    if (extras.empty() && given.empty() && error.get_name() == "RequiredError")
-        return "a command is needed; lumel --help lists what there is";
-    const std::string advice = "; " + path + " --help lists what there is";
-    return extras.empty() ? error.what() + advice
-                          : fmt::format("{} was not expected{}", extras.front(), advice);
-}
+constexpr const char* kVersion = "lumel " LUMEL_VERSION "\n";
 
-std::vector<Command> add_commands(CLI::App& program)
+const Option kHelp{
+    .names = "-h,--help", .help = "Print this help message and exit", .target = HelpFlag{}};
+
+void add_commands(Command& program)
 {
-    return {bake_command(program),      update_command(program),     relight_command(program),
-            why_command(program),       measure_command(program),    probes_command(program),
-            render_command(program),    play_command(program),       view_command(program),
-            reference_command(program), info_command(program),       compare_command(program),
-            report_command(program),    devices_command(program),    methods_command(program),
-            help_command(program),      completion_command(program), man_command(program),
-            options_command(program)};
+    program.commands = {bake_command(),
+                        update_command(),
+                        relight_command(),
+                        why_command(),
+                        measure_command(),
+                        probes_command(),
+                        render_command(),
+                        play_command(),
+                        view_command(),
+                        reference_command(),
+                        info_command(),
+                        compare_command(),
+                        report_command(),
+                        devices_command(),
+                        methods_command(),
+                        help_command(program),
+                        completion_command(program),
+                        man_command(program),
+                        options_command(program)};
+    for (Command& command : program.commands) {
+        command.options.insert(command.options.begin(), kHelp);
+        command.options.front().group = kProgramGroup;
+    }
 }
 
 }  // namespace
 
 Arguments parse_arguments(int count, char** values)
 {
-    CLI::App program("Lumel bakes the light of a glTF scene into lightmaps.", "lumel");
-    program.set_version_flag("-V,--version", "lumel " LUMEL_VERSION);
-    program.require_subcommand(1);
-    program.formatter_fn([](const CLI::App* command, const std::string& path, CLI::AppFormatMode) {
-        return help_text(*command, path);
-    });
-    const std::vector<Command> commands = add_commands(program);
-    for (const Command& command : commands)
-        command.parser->get_help_ptr()->group(kProgramGroup);
+    Command program{.name = "lumel",
+                    .help = "Lumel bakes the light of a glTF scene into lightmaps."};
+    program.add("Options", {kHelp,
+                            {.names = "-V,--version",
+                             .help = "Display program version information and exit",
+                             .target = VersionFlag{}}});
+    add_commands(program);
 
-    try {
-        program.parse(count, values);
-    } catch (const CLI::CallForHelp&) {
-        return TextArguments{program.help()};
-    } catch (const CLI::CallForVersion& version) {
-        return TextArguments{std::string(version.what()) + "\n"};
-    } catch (const CLI::ParseError& error) {
-        throw Error(ErrorKind::input, "", complaint(program, error));
-    }
-    for (const Command& command : commands)
-        if (command.parser->parsed())
-            return command.arguments();
-    return TextArguments{program.help()};
+    const Parsed parsed = parse(program, count, values);
+    const Command& command = *parsed.command;
+    if (parsed.wish == Parsed::Wish::version)
+        return {TextArguments{kVersion}};
+    if (parsed.wish == Parsed::Wish::help)
+        return {TextArguments{help_text(program, command)}};
+    return command.arguments(command);
 }
 
 }  // namespace lumel

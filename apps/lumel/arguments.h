@@ -127,10 +127,14 @@ struct TextArguments {
     std::string text;
 };
 
-using Arguments = std::variant<BakeArguments, UpdateArguments, RelightArguments, WhyArguments,
-                               MeasureArguments, ProbesArguments, RenderArguments, PlayArguments,
-                               ViewArguments, ReferenceArguments, InfoArguments, CompareArguments,
-                               ReportArguments, DevicesArguments, MethodsArguments, TextArguments>;
+/// The values given to one of the commands.
+struct Arguments {
+    std::variant<BakeArguments, UpdateArguments, RelightArguments, WhyArguments, MeasureArguments,
+                 ProbesArguments, RenderArguments, PlayArguments, ViewArguments, ReferenceArguments,
+                 InfoArguments, CompareArguments, ReportArguments, DevicesArguments,
+                 MethodsArguments, TextArguments>
+        of_command;
+};
 
 /// Reads the command line. Throws Error{input} with one sentence for anything it cannot use.
 Arguments parse_arguments(int count, char** values);

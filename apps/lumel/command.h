@@ -1,44 +1,99 @@
 #pragma once
-// The commands as the parser knows them: each in a file of its own, NAME_options.cpp.
+// Commands and options as data. The parser, --help, docs/options.md, the manual page and shell
+// completion all read the same tables.
 
+#include <array>
+#include <cstdint>
 #include <functional>
-
-#include "arguments.h"
-
-namespace CLI {
-class App;
-}
+#include <initializer_list>
+#include <string>
+#include <variant>
+#include <vector>
 
 namespace lumel {
 
-/// A command of the program.
-struct Command {
-    CLI::App* parser;
-    /// What was given to it, once it has been parsed. Throws Error{input} for what cannot be.
-    std::function<Arguments()> arguments;
+struct Arguments;
+
+/// Target of an option that prints the help of its command.
+struct HelpFlag {};
+/// Target of an option that prints the version.
+struct VersionFlag {};
+
+/// Where a value goes: into a variable, or to a function, which is called once per value. Options
+/// whose target is a bool, a function without parameters or one of the two flags take no value.
+using Target =
+    std::variant<HelpFlag, VersionFlag, bool*, int*, std::uint32_t*, std::uint64_t*, float*,
+                 double*, std::string*, std::vector<std::string>*, std::function<void()>,
+                 std::function<void(double)>, std::function<void(const std::string&)>,
+                 std::function<void(std::array<double, 2>)>>;
+
+/// Returns an empty string for a valid value, else the reason why it is not.
+using Check = std::function<std::string(const std::string& value)>;
+
+/// An option or an argument of a command.
+struct Option {
+    std::string names;  ///< "-q,--quiet"; the name of an argument has no dash
+    std::string type;   ///< of the value: "N", "FILE|R,G,B", "area|centre"
+    std::string help;
+    std::string default_value;  ///< as --help prints it
+    Target target;
+    Check check;
+    bool required = false;
+    bool repeatable = false;
+    std::string needs;      ///< name of an option that must also be given
+    std::string excludes;   ///< name of an option that must not also be given
+    std::string group;      ///< title above it in --help and docs/options.md; set by Command::add()
+    std::size_t count = 0;  ///< occurrences on the command line; set by parse()
+
+    bool is_argument() const { return !names.starts_with('-'); }
 };
 
-// Each adds its command to the program.
+/// A command, or the program, which has commands.
+struct Command {
+    std::string name;
+    std::string help;
+    std::vector<Option> options;
+    /// Returns the values once parse() has stored them. Throws Error{input} if they do not fit
+    /// together.
+    std::function<Arguments(const Command& command)> arguments;
+    std::string footer;  ///< printed below --help; a tab separates columns
+    bool listed = true;  ///< in --help and in docs/options.md
+    std::vector<Command> commands;
 
-Command bake_command(CLI::App& program);
-Command update_command(CLI::App& program);
-Command relight_command(CLI::App& program);
-Command why_command(CLI::App& program);
-Command measure_command(CLI::App& program);
-Command probes_command(CLI::App& program);
-Command render_command(CLI::App& program);
-Command play_command(CLI::App& program);
-Command view_command(CLI::App& program);
-Command reference_command(CLI::App& program);
-Command info_command(CLI::App& program);
-Command compare_command(CLI::App& program);
-Command report_command(CLI::App& program);
-Command devices_command(CLI::App& program);
-Command methods_command(CLI::App& program);
-/// Of what the program says of itself.
-Command help_command(CLI::App& program);
-Command man_command(CLI::App& program);
-Command completion_command(CLI::App& program);
-Command options_command(CLI::App& program);
+    /// Adds options below a title; arguments have none.
+    void add(const std::string& group, std::initializer_list<Option> added);
+    void add(std::initializer_list<Option> added) { add("", added); }
+
+    /// True if the option was given on the command line. option_name: "--size".
+    bool given(const std::string& option_name) const;
+};
+
+/// "-q" and "--quiet".
+std::vector<std::string> names_of(const Option& option);
+
+// The commands, each in a file of its own, NAME_options.cpp.
+
+Command bake_command();
+Command update_command();
+Command relight_command();
+Command why_command();
+Command measure_command();
+Command probes_command();
+Command render_command();
+Command play_command();
+Command view_command();
+Command reference_command();
+Command info_command();
+Command compare_command();
+Command report_command();
+Command devices_command();
+Command methods_command();
+
+// Commands that describe the program, which must outlive them.
+
+Command help_command(const Command& program);
+Command man_command(const Command& program);
+Command completion_command(const Command& program);
+Command options_command(const Command& program);
 
 }  // namespace lumel

@@ -2,38 +2,40 @@
 
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
-#include "command.h"
 #include "option_values.h"
 #include "shared_options.h"
 
 namespace lumel {
 
-Command compare_command(CLI::App& program)
+Command compare_command()
 {
     const auto given = std::make_shared<CompareArguments>();
-    CompareArguments& compare = *given;
-    CLI::App& command = *program.add_subcommand("compare", "Measure how far map A is from map B");
-    command.option_defaults()->group("Comparison");
-    command.add_option("A", compare.map, "The map to measure, an EXR file")
-        ->required()
-        ->type_name("FILE");
-    command.add_option("B", compare.reference, "The map that is taken as right")
-        ->required()
-        ->type_name("FILE");
-    command
-        .add_option("-o,--heat-map", compare.heat_map,
-                    "PNG to write; white is a difference of 10 % of the mean")
-        ->type_name("FILE")
-        ->default_str("A-vs-B.png beside A");
-    command
-        .add_option("--ignore-above", compare.most,
-                    "Leave out texels that are brighter than this in B, such as lamps in a picture")
-        ->type_name("VALUE")
-        ->check(positive());
-    add_json_flag(command, compare.json);
-    return {&command, [given]() -> Arguments { return *given; }};
+    Command command{.name = "compare", .help = "Measure how far map A is from map B"};
+    command.add({{.names = "A",
+                  .type = "FILE",
+                  .help = "The map to measure, an EXR file",
+                  .target = &given->map,
+                  .required = true},
+                 {.names = "B",
+                  .type = "FILE",
+                  .help = "The map that is taken as right",
+                  .target = &given->reference,
+                  .required = true}});
+    command.add(
+        "Comparison",
+        {{.names = "-o,--heat-map",
+          .type = "FILE",
+          .help = "PNG to write; white is a difference of 10 % of the mean",
+          .default_value = "A-vs-B.png beside A",
+          .target = &given->heat_map},
+         {.names = "--ignore-above",
+          .type = "VALUE",
+          .help = "Leave out texels that are brighter than this in B, such as lamps in a picture",
+          .target = &given->most,
+          .check = positive()}});
+    add_json_flag(command, given->json);
+    command.arguments = [given](const Command&) -> Arguments { return {*given}; };
+    return command;
 }
 
 }  // namespace lumel

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include "listing.h"
+#include "option_values.h"
 
 namespace lumel {
 namespace {
@@ -19,10 +20,11 @@ struct Values {
 };
 
 /// Types name kinds in capitals and words as they are: "FILE|R,G,B", "area|centre".
-Values values_of(const CLI::Option& option)
+Values values_of(const Option& option)
 {
     Values values;
-    for (const std::string& part : CLI::detail::split(type_of(option), '|')) {
+    std::istringstream parts(option.type);
+    for (std::string part; std::getline(parts, part, '|');) {
         const bool word = std::none_of(part.begin(), part.end(),
                                        [](char letter) { return letter >= 'A' && letter <= 'Z'; });
         values.files = values.files || part == "FILE";
@@ -34,18 +36,18 @@ Values values_of(const CLI::Option& option)
     return values;
 }
 
-std::vector<std::string> names_of_commands(const CLI::App& program)
+std::vector<std::string> names_of_commands(const Command& program)
 {
     std::vector<std::string> names;
-    for (const CLI::App* command : commands_of(program))
-        names.push_back(command->get_name());
+    for (const Command* command : commands_of(program))
+        names.push_back(command->name);
     return names;
 }
 
-std::vector<std::string> names_of_options(const CLI::App& app)
+std::vector<std::string> names_of_options(const Command& command)
 {
     std::vector<std::string> all;
-    for (const CLI::Option* option : options_of(app, false))
+    for (const Option* option : options_of(command))
         for (const std::string& name : names_of(*option))
             all.push_back(name);
     return all;
@@ -53,13 +55,13 @@ std::vector<std::string> names_of_options(const CLI::App& app)
 
 std::string spaced(const std::vector<std::string>& words)
 {
-    return CLI::detail::join(words, " ");
+    return joined(words, " ");
 }
 
 // bash: words come from a list; where none of them fits, files or folders, or nothing that is
 // known.
 
-std::string bash_values(const CLI::App& program, const Values& values)
+std::string bash_values(const Command& program, const Values& values)
 {
     if (values.commands)
         return fmt::format("words='{}'", spaced(names_of_commands(program)));
@@ -72,18 +74,18 @@ std::string bash_values(const CLI::App& program, const Values& values)
     return values.folders ? "compopt -o dirnames" : ":";
 }
 
-std::string bash_command(const CLI::App& program, const CLI::App& command)
+std::string bash_command(const Command& program, const Command& command)
 {
     std::map<std::string, std::vector<std::string>> options;  // by what completes their values
-    for (const CLI::Option* option : options_of(command, false))
+    for (const Option* option : options_of(command))
         for (const std::string& name : names_of(*option))
-            if (!type_of(*option).empty())
+            if (!option->type.empty())
                 options[bash_values(program, values_of(*option))].push_back(name);
-    std::string text = fmt::format("    {})\n        case $before in\n", command.get_name());
+    std::string text = fmt::format("    {})\n        case $before in\n", command.name);
     for (const auto& [values, names] : options)
-        text += fmt::format("        {}) {} ;;\n", CLI::detail::join(names, "|"), values);
+        text += fmt::format("        {}) {} ;;\n", joined(names, "|"), values);
     Values arguments;  // of all places: which of them is meant is not counted
-    for (const CLI::Option* argument : options_of(command, true)) {
+    for (const Option* argument : arguments_of(command)) {
         const Values own = values_of(*argument);
         arguments.files = arguments.files || own.files;
         arguments.folders = arguments.folders || own.folders;
@@ -95,9 +97,9 @@ std::string bash_command(const CLI::App& program, const CLI::App& command)
                               spaced(names_of_options(command)), bash_values(program, arguments));
 }
 
-std::string bash_script(const CLI::App& program)
+std::string bash_script(const Command& program)
 {
-    const std::string& name = program.get_name();
+    const std::string& name = program.name;
     std::vector<std::string> first = names_of_commands(program);
     for (const std::string& option : names_of_options(program))
         first.push_back(option);
@@ -111,7 +113,7 @@ std::string bash_script(const CLI::App& program)
         "    fi\n"
         "    case ${{COMP_WORDS[1]}} in\n",
         name, spaced(first));
-    for (const CLI::App* command : commands_of(program))
+    for (const Command* command : commands_of(program))
         text += bash_command(program, *command);
     return text + fmt::format("    esac\n"
                               "    [[ -z $words ]] || "
@@ -136,7 +138,7 @@ std::string zsh_text(const std::string& text)
     return escaped;
 }
 
-std::string zsh_values(const CLI::App& program, const Values& values)
+std::string zsh_values(const Command& program, const Values& values)
 {
     if (values.commands)
         return "(" + spaced(names_of_commands(program)) + ")";
@@ -148,34 +150,33 @@ std::string zsh_values(const CLI::App& program, const Values& values)
     return values.folders ? "_files -/" : " ";
 }
 
-std::string zsh_option(const CLI::App& program, const CLI::Option& option)
+std::string zsh_option(const Command& program, const Option& option)
 {
     const std::vector<std::string> names = names_of(option);
-    std::string spec = fmt::format("[{}]", zsh_text(option.get_description()));
-    if (const std::string type = type_of(option); !type.empty())
-        spec += fmt::format(":{}:{}", zsh_text(type), zsh_values(program, values_of(option)));
-    const bool repeats = option.get_expected_max() > 1 && !option.get_allow_extra_args();
+    std::string spec = fmt::format("[{}]", zsh_text(option.help));
+    if (!option.type.empty())
+        spec +=
+            fmt::format(":{}:{}", zsh_text(option.type), zsh_values(program, values_of(option)));
     if (names.size() == 1)
-        return fmt::format("'{}{}{}'", repeats ? "*" : "", names.front(), spec);
-    return fmt::format("'({})'{{{}}}'{}'", spaced(names), CLI::detail::join(names, ","), spec);
+        return fmt::format("'{}{}{}'", option.repeatable ? "*" : "", names.front(), spec);
+    return fmt::format("'({})'{{{}}}'{}'", spaced(names), joined(names, ","), spec);
 }
 
-std::string zsh_command(const CLI::App& program, const CLI::App& command)
+std::string zsh_command(const Command& program, const Command& command)
 {
-    std::string text = fmt::format("    {})\n        _arguments", command.get_name());
-    for (const CLI::Option* option : options_of(command, false))
+    std::string text = fmt::format("    {})\n        _arguments", command.name);
+    for (const Option* option : options_of(command))
         text += " \\\n            " + zsh_option(program, *option);
     int place = 0;
-    for (const CLI::Option* argument : options_of(command, true))
-        text +=
-            fmt::format(" \\\n            '{}:{}:{}'", ++place, zsh_text(argument->get_name(true)),
-                        zsh_values(program, values_of(*argument)));
+    for (const Option* argument : arguments_of(command))
+        text += fmt::format(" \\\n            '{}:{}:{}'", ++place, zsh_text(argument->names),
+                            zsh_values(program, values_of(*argument)));
     return text + " ;;\n";
 }
 
-std::string zsh_script(const CLI::App& program)
+std::string zsh_script(const Command& program)
 {
-    const std::string& name = program.get_name();
+    const std::string& name = program.name;
     std::string text = fmt::format("#compdef {0}\n"
                                    "# zsh completion of {0}, printed by {0} completion zsh\n\n"
                                    "_{0}()\n{{\n"
@@ -184,11 +185,10 @@ std::string zsh_script(const CLI::App& program)
                                    "    typeset -A opt_args\n"
                                    "    commands=(\n",
                                    name);
-    for (const CLI::App* command : commands_of(program))
-        text += fmt::format("        '{}:{}'\n", command->get_name(),
-                            zsh_text(command->get_description()));
+    for (const Command* command : commands_of(program))
+        text += fmt::format("        '{}:{}'\n", command->name, zsh_text(command->help));
     text += "    )\n    _arguments -C";
-    for (const CLI::Option* option : options_of(program, false))
+    for (const Option* option : options_of(program))
         text += " \\\n        " + zsh_option(program, *option);
     text += " \\\n        '1:command:->command' '*::argument:->argument'\n"
             "    case $state in\n"
@@ -197,7 +197,7 @@ std::string zsh_script(const CLI::App& program)
             "    *) return ;;\n"
             "    esac\n"
             "    case $words[1] in\n";
-    for (const CLI::App* command : commands_of(program))
+    for (const Command* command : commands_of(program))
         text += zsh_command(program, *command);
     // Sourced, it only makes itself known; found by its name, it is run for the first completion.
     return text + fmt::format("    esac\n}}\n\n"
@@ -208,7 +208,7 @@ std::string zsh_script(const CLI::App& program)
 
 }  // namespace
 
-std::string completion_script(const CLI::App& program, Shell shell)
+std::string completion_script(const Command& program, Shell shell)
 {
     return shell == Shell::bash ? bash_script(program) : zsh_script(program);
 }

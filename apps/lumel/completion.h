@@ -1,17 +1,15 @@
 #pragma once
-// What completes commands and options in a shell, printed from the options as CLI11 holds them.
+// Scripts that complete commands and options in a shell, printed from the tables of options.
 
 #include <string>
 
-namespace CLI {
-class App;
-}
+#include "command.h"
 
 namespace lumel {
 
 enum class Shell { bash, zsh };
 
 /// A script that the shell sources, or finds in its folder of completions.
-std::string completion_script(const CLI::App& program, Shell shell);
+std::string completion_script(const Command& program, Shell shell);
 
 }  // namespace lumel

@@ -2,26 +2,25 @@
 
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
-#include "command.h"
 #include "shared_options.h"
 
 namespace lumel {
 
-Command devices_command(CLI::App& program)
+Command devices_command()
 {
     const auto given = std::make_shared<DevicesArguments>();
-    CLI::App& command =
-        *program.add_subcommand("devices", "List the Vulkan devices, and why one cannot be used");
+    Command command{.name = "devices",
+                    .help = "List the Vulkan devices, and why one cannot be used"};
     add_json_flag(command, given->json);
-    return {&command, [given]() -> Arguments { return *given; }};
+    command.arguments = [given](const Command&) -> Arguments { return {*given}; };
+    return command;
 }
 
-Command methods_command(CLI::App& program)
+Command methods_command()
 {
-    return {program.add_subcommand("methods", "List the methods of --solver"),
-            []() -> Arguments { return MethodsArguments{}; }};
+    return {.name = "methods",
+            .help = "List the methods of --solver",
+            .arguments = [](const Command&) -> Arguments { return {MethodsArguments{}}; }};
 }
 
 }  // namespace lumel

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include <CLI/CLI.hpp>
+#include "option_values.h"
 
 namespace lumel {
 namespace {
@@ -15,19 +15,27 @@ std::string upper_case(std::string text)
     return text;
 }
 
-/// Adds an option to its section, or its command to the row that it has already.
-void add_row(std::vector<OptionSection>& sections, const CLI::Option& option,
-             const std::string& command)
+std::vector<const Option*> listed(const Command& command, bool arguments)
 {
-    const std::string& title = option.get_group();
-    auto section = std::find_if(sections.begin(), sections.end(),
-                                [&](const OptionSection& known) { return known.title == title; });
+    std::vector<const Option*> found;
+    for (const Option& option : command.options)
+        if (option.is_argument() == arguments)
+            found.push_back(&option);
+    return found;
+}
+
+/// Adds an option to its section, or its command to the row that it has already.
+void add_row(std::vector<OptionSection>& sections, const Option& option, const std::string& command)
+{
+    auto section = std::find_if(sections.begin(), sections.end(), [&](const OptionSection& known) {
+        return known.title == option.group;
+    });
     if (section == sections.end())
-        section = sections.insert(sections.end(), OptionSection{title, {}});
-    const OptionRow row{
-        spelling(option), {command}, option.get_default_str(), option.get_description()};
+        section = sections.insert(sections.end(), OptionSection{option.group, {}});
+    const OptionRow row{spelling(option), {command}, option.default_value, option.help};
     for (OptionRow& known : section->rows)
-        if (known.name == row.name && known.value == row.value && known.meaning == row.meaning) {
+        if (known.name == row.name && known.default_value == row.default_value &&
+            known.meaning == row.meaning) {
             known.commands.push_back(command);
             return;
         }
@@ -36,72 +44,63 @@ void add_row(std::vector<OptionSection>& sections, const CLI::Option& option,
 
 }  // namespace
 
-std::vector<const CLI::App*> commands_of(const CLI::App& program)
+std::vector<const Command*> commands_of(const Command& program)
 {
-    return program.get_subcommands(
-        [](const CLI::App* command) { return !command->get_group().empty(); });
+    std::vector<const Command*> found;
+    for (const Command& command : program.commands)
+        if (command.listed)
+            found.push_back(&command);
+    return found;
 }
 
-std::vector<const CLI::Option*> options_of(const CLI::App& app, bool positional)
+std::vector<const Option*> arguments_of(const Command& command)
 {
-    return app.get_options([positional](const CLI::Option* option) {
-        return option->get_positional() == positional && !option->get_group().empty();
-    });
+    return listed(command, true);
 }
 
-std::vector<std::string> names_of(const CLI::Option& option)
+std::vector<const Option*> options_of(const Command& command)
 {
-    std::vector<std::string> names;
-    for (const std::string& name : option.get_snames())
-        names.push_back("-" + name);
-    for (const std::string& name : option.get_lnames())
-        names.push_back("--" + name);
-    return names;
+    return listed(command, false);
 }
 
-std::string type_of(const CLI::Option& option)
+std::string path_of(const Command& program, const Command& command)
 {
-    std::string type = option.get_type_name();
-    type.resize(std::min(type.find(':'), type.size()));  // CLI11 adds names of validators
-    return type;
+    return &command == &program ? program.name : program.name + " " + command.name;
 }
 
-std::string spelling(const CLI::Option& option)
+std::string spelling(const Option& option)
 {
-    if (option.get_positional())
-        return upper_case(option.get_name(true));
-    const std::string type = type_of(option);
-    return CLI::detail::join(names_of(option), ", ") + (type.empty() ? "" : " " + type);
+    if (option.is_argument())
+        return upper_case(option.names);
+    return joined(names_of(option), ", ") + (option.type.empty() ? "" : " " + option.type);
 }
 
-std::string usage(const CLI::App& app, const std::string& path)
+std::string usage(const Command& program, const Command& command)
 {
-    std::string line = path;
-    if (!commands_of(app).empty())
+    std::string line = path_of(program, command);
+    if (!command.commands.empty())
         return line + " COMMAND ARGUMENTS [OPTIONS]";
-    for (const CLI::Option* argument : options_of(app, true)) {
+    for (const Option* argument : arguments_of(command)) {
         const std::string name = spelling(*argument);
-        line += argument->get_required() ? " " + name : " [" + name + "]";
+        line += argument->required ? " " + name : " [" + name + "]";
     }
     return line + " [OPTIONS]";
 }
 
-std::vector<OptionSection> sections_of(const CLI::App& program)
+std::vector<OptionSection> sections_of(const Command& program)
 {
     std::vector<OptionSection> sections;
-    for (const CLI::App* command : commands_of(program))
-        for (const CLI::Option* option : options_of(*command, false))
-            add_row(sections, *option, command->get_name());
+    for (const Command* command : commands_of(program))
+        for (const Option* option : options_of(*command))
+            add_row(sections, *option, command->name);
     // What all commands have comes first in each of them, and last on the page.
     std::rotate(sections.begin(), sections.begin() + (sections.empty() ? 0 : 1), sections.end());
     return sections;
 }
 
-std::string commands_text(const OptionRow& row, const CLI::App& program)
+std::string commands_text(const OptionRow& row, const Command& program)
 {
-    return row.commands.size() == commands_of(program).size()
-               ? "all"
-               : CLI::detail::join(row.commands, ", ");
+    return row.commands.size() == commands_of(program).size() ? "all" : joined(row.commands, ", ");
 }
 
 }  // namespace lumel

@@ -1,43 +1,37 @@
 #pragma once
-// Commands and options of the program as the parser holds them: the one table behind --help,
-// docs/options.md, the manual page and the completion of shells.
+// Commands and options as --help, docs/options.md, the manual page and shell completion list them.
 
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
+#include "command.h"
 
 namespace lumel {
 
 /// The type of an argument that is the name of a command.
 inline constexpr const char* kCommandType = "COMMAND";
 
-/// Its commands that are listed.
-std::vector<const CLI::App*> commands_of(const CLI::App& program);
+/// The commands of the program that are listed.
+std::vector<const Command*> commands_of(const Command& program);
 
-/// Its arguments (`positional`) or its options that are listed.
-std::vector<const CLI::Option*> options_of(const CLI::App& app, bool positional);
+/// The arguments of a command, or its options.
+std::vector<const Option*> arguments_of(const Command& command);
+std::vector<const Option*> options_of(const Command& command);
 
-/// "-q" and "--quiet".
-std::vector<std::string> names_of(const CLI::Option& option);
-
-/// What its value is called: "N", "FILE|R,G,B", "area|centre"; empty if it takes none.
-std::string type_of(const CLI::Option& option);
+/// "lumel bake", or "lumel" for the program itself.
+std::string path_of(const Command& program, const Command& command);
 
 /// "-q, --quiet" or "--size N"; for arguments without a dash their name in capitals.
-std::string spelling(const CLI::Option& option);
+std::string spelling(const Option& option);
 
-/// "lumel bake SCENE FOLDER [OPTIONS]"; `path` as typed.
-std::string usage(const CLI::App& app, const std::string& path);
+/// "lumel bake SCENE FOLDER [OPTIONS]"
+std::string usage(const Command& program, const Command& command);
 
 /// An option of one or more commands.
 struct OptionRow {
     std::string name;  ///< as of spelling()
     std::vector<std::string> commands;
-    std::string value;  ///< its default
+    std::string default_value;
     std::string meaning;
 };
 
@@ -47,9 +41,9 @@ struct OptionSection {
 };
 
 /// All options of all commands; the same option of several commands makes one row.
-std::vector<OptionSection> sections_of(const CLI::App& program);
+std::vector<OptionSection> sections_of(const Command& program);
 
 /// "bake, update", or "all" if these are all commands of the program.
-std::string commands_text(const OptionRow& row, const CLI::App& program);
+std::string commands_text(const OptionRow& row, const Command& program);
 
 }  // namespace lumel

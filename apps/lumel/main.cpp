@@ -43,7 +43,8 @@ int main(int count, char** values)
 {
     try {
         const Arguments arguments = parse_arguments(count, values);
-        const int code = std::visit([](const auto& command) { return run(command); }, arguments);
+        const int code =
+            std::visit([](const auto& given) { return run(given); }, arguments.of_command);
         if (std::fflush(stdout) != 0)
             return fail(kExitOutput, "standard output cannot be written");
         return code;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include "commands.h"
@@ -48,26 +47,25 @@ std::string sentence(const std::string& text)
     return text.ends_with('.') ? text : text + ".";
 }
 
-std::string commands_section(const CLI::App& program)
+std::string commands_section(const Command& program)
 {
     std::string text = heading("Commands");
-    for (const CLI::App* command : commands_of(program)) {
-        text += item(usage(*command, program.get_name() + " " + command->get_name()),
-                     sentence(command->get_description()));
-        for (const CLI::Option* argument : options_of(*command, true))
+    for (const Command* command : commands_of(program)) {
+        text += item(usage(program, *command), sentence(command->help));
+        for (const Option* argument : arguments_of(*command))
             text += fmt::format(".RS\n.TP\n.I {}\n{}\n.RE\n", plain(spelling(*argument)),
-                                plain(sentence(argument->get_description())));
+                                plain(sentence(argument->help)));
     }
     return text;
 }
 
-std::string option_section(const OptionSection& section, const CLI::App& program)
+std::string option_section(const OptionSection& section, const Command& program)
 {
     std::string text = fmt::format(".SS \"{}\"\n", plain(section.title));
     for (const OptionRow& row : section.rows) {
         text += item(row.name, sentence(row.meaning));
-        if (!row.value.empty())
-            text += fmt::format("Default: {}.\n", plain(row.value));
+        if (!row.default_value.empty())
+            text += fmt::format("Default: {}.\n", plain(row.default_value));
         text += fmt::format("Commands: {}.\n", plain(commands_text(row, program)));
     }
     return text;
@@ -105,14 +103,14 @@ std::string environment_section()
 
 }  // namespace
 
-std::string man_page(const CLI::App& program)
+std::string man_page(const Command& program)
 {
-    const std::string& name = program.get_name();
+    const std::string& name = program.name;
     // No date: the same program prints the same page.
     std::string text =
         fmt::format(".TH LUMEL 1 \"\" \"{} {}\" \"User Commands\"\n", name, plain(LUMEL_VERSION)) +
         heading("Name") + plain(name + " - bakes the light of a glTF scene into lightmaps") + "\n" +
-        heading("Synopsis") + fmt::format(".B {}\n", plain(usage(program, name))) +
+        heading("Synopsis") + fmt::format(".B {}\n", plain(usage(program, program))) +
         heading("Description") +
         plain("Lumel solves the radiosity equation over the texels of a lightmap. "
               "It reads a .gltf or .glb file and writes the lightmap, the lit scene "

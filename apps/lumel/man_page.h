@@ -3,13 +3,11 @@
 
 #include <string>
 
-namespace CLI {
-class App;
-}
+#include "command.h"
 
 namespace lumel {
 
-/// lumel(1) in the form of man(7), printed from the options as CLI11 holds them.
-std::string man_page(const CLI::App& program);
+/// lumel(1) in the form of man(7), printed from the tables of options.
+std::string man_page(const Command& program);
 
 }  // namespace lumel

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include "listing.h"
@@ -44,10 +43,19 @@ std::string entry(const std::string& name, const std::string& meaning)
     return text + line + "\n";
 }
 
-std::string meaning_with_default(const CLI::Option& option)
+std::string meaning_with_default(const Option& option)
 {
-    const std::string value = option.get_default_str();
-    return option.get_description() + (value.empty() ? "" : " [" + value + "]");
+    return option.help + (option.default_value.empty() ? "" : " [" + option.default_value + "]");
+}
+
+/// Titles of groups of options, in the order in which they first occur.
+std::vector<std::string> groups_of(const Command& command)
+{
+    std::vector<std::string> groups;
+    for (const Option* option : options_of(command))
+        if (std::find(groups.begin(), groups.end(), option->group) == groups.end())
+            groups.push_back(option->group);
+    return groups;
 }
 
 /// Text as a cell of a Markdown table.
@@ -61,13 +69,14 @@ std::string cell(std::string_view text)
     return escaped;
 }
 
-std::string table(const OptionSection& section, const CLI::App& program)
+std::string table(const OptionSection& section, const Command& program)
 {
     std::string text = "\n## " + section.title +
                        "\n\n| option | commands | default | meaning |\n|---|---|---|---|\n";
     for (const OptionRow& row : section.rows)
-        text += fmt::format("| `{}` | {} | {} | {} |\n", cell(row.name),
-                            commands_text(row, program), cell(row.value), cell(row.meaning));
+        text +=
+            fmt::format("| `{}` | {} | {} | {} |\n", cell(row.name), commands_text(row, program),
+                        cell(row.default_value), cell(row.meaning));
     return text;
 }
 
@@ -87,30 +96,28 @@ std::string table_of_methods()
 
 }  // namespace
 
-std::string help_text(const CLI::App& app, const std::string& path)
+std::string help_text(const Command& program, const Command& command)
 {
-    std::string text = app.get_description() + "\n\nUsage: " + usage(app, path) + "\n";
-    const auto list = [&](const std::string& title, const std::vector<const CLI::Option*>& group) {
+    std::string text = command.help + "\n\nUsage: " + usage(program, command) + "\n";
+    const auto list = [&](const std::string& title, const std::vector<const Option*>& group) {
         if (group.empty())
             return;
         text += "\n" + title + ":\n";
-        for (const CLI::Option* option : group)
+        for (const Option* option : group)
             text += entry(spelling(*option), meaning_with_default(*option));
     };
-    list("Arguments", options_of(app, true));
-    const std::vector<const CLI::App*> commands = commands_of(app);
+    list("Arguments", arguments_of(command));
+    const std::vector<const Command*> commands = commands_of(command);
     if (!commands.empty())
         text += "\nCommands:\n";
-    for (const CLI::App* command : commands)
-        text += entry(command->get_name(), command->get_description());
-    const std::vector<const CLI::Option*> options = options_of(app, false);
-    for (const std::string& title : app.get_groups()) {
-        std::vector<const CLI::Option*> group;
-        std::copy_if(options.begin(), options.end(), std::back_inserter(group),
-                     [&](const CLI::Option* option) { return option->get_group() == title; });
+    for (const Command* one : commands)
+        text += entry(one->name, one->help);
+    for (const std::string& title : groups_of(command)) {
+        std::vector<const Option*> group = options_of(command);
+        std::erase_if(group, [&](const Option* option) { return option->group != title; });
         list(title, group);
     }
-    std::istringstream footer(app.get_footer());
+    std::istringstream footer(command.footer);
     for (std::string line; std::getline(footer, line);) {
         const std::size_t tab = line.find('\t');
         text += tab == line.npos ? line + "\n" : entry(line.substr(0, tab), line.substr(tab + 1));
@@ -118,22 +125,20 @@ std::string help_text(const CLI::App& app, const std::string& path)
     return text;
 }
 
-std::string options_page(const CLI::App& program)
+std::string options_page(const Command& program)
 {
-    const std::vector<const CLI::App*> commands = commands_of(program);
+    const std::vector<const Command*> commands = commands_of(program);
     std::string text =
         "# Commands and options\n\n"
         "<!-- Printed by `lumel options`, from the tables that also print --help. -->\n\n"
         "| command | what it does |\n|---|---|\n";
-    for (const CLI::App* command : commands)
-        text += fmt::format("| `{}` | {} |\n",
-                            cell(usage(*command, program.get_name() + " " + command->get_name())),
-                            cell(command->get_description()));
+    for (const Command* command : commands)
+        text += fmt::format("| `{}` | {} |\n", cell(usage(program, *command)), cell(command->help));
     text += "\n## Arguments\n\n| command | argument | meaning |\n|---|---|---|\n";
-    for (const CLI::App* command : commands)
-        for (const CLI::Option* argument : options_of(*command, true))
-            text += fmt::format("| {} | `{}` | {} |\n", command->get_name(), spelling(*argument),
-                                cell(argument->get_description()));
+    for (const Command* command : commands)
+        for (const Option* argument : arguments_of(*command))
+            text += fmt::format("| {} | `{}` | {} |\n", command->name, spelling(*argument),
+                                cell(argument->help));
     for (const OptionSection& section : sections_of(program))
         text += table(section, program);
     return text + table_of_methods();

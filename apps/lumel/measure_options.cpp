@@ -3,11 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include "base/core/error.h"
-#include "command.h"
 #include "option_values.h"
 #include "shared_options.h"
 
@@ -45,83 +43,90 @@ std::array<double, 4> bounds_of(const std::string& text)
     return {n[0], n[1], n[2], n[3]};
 }
 
-void add_places(CLI::App& app, MeasureOptions& options)
+void add_places(Command& command, MeasureOptions& options)
 {
-    app.option_defaults()->group(kPlacesGroup);
-    auto* at = app.add_option_function<std::vector<std::string>>(
-                      "--at",
-                      [&options](const std::vector<std::string>& texts) {
-                          for (const std::string& text : texts)
-                              options.points.push_back(point_of(text));
-                      },
-                      "Point in metres, in the air or on a surface, and what it faces, up if that "
-                      "is left out; may be repeated")
-                   ->type_name("X,Y,Z[,NX,NY,NZ]")
-                   ->allow_extra_args(false);  // one at a time, so that a folder may follow
-    auto* plane = app.add_option_function<double>(
-                         "--plane", [&options](double height) { options.height = height; },
-                         "Height in metres of a work plane, horizontal, facing up, that blocks "
-                         "nothing; points inside of things are left out")
-                      ->type_name("Y")
-                      ->check(between(-kFarthest, kFarthest))
-                      ->excludes(at);
-    app.add_option("--spacing", options.spacing, "Metres from point to point of the plane")
-        ->type_name("F")
-        ->default_str("1/20 of its longer side")
-        ->check(positive())
-        ->needs(plane);
-    app.add_option_function<std::string>(
-           "--bounds", [&options](const std::string& text) { options.bounds = bounds_of(text); },
-           "Corners of the plane in metres")
-        ->type_name("X0,Z0,X1,Z1")
-        ->default_str("the scene's")
-        ->needs(plane);
-    app.add_option("--samples", options.samples,
-                   "Rays of a point over its hemisphere, and as many towards lights")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(kMinSamples, kMaxSamples));
+    command.add(
+        kPlacesGroup,
+        {{.names = "--at",
+          .type = "X,Y,Z[,NX,NY,NZ]",
+          .help = "Point in metres, in the air or on a surface, and what it faces, up if that is "
+                  "left out; may be repeated",
+          .target =
+              [&options](const std::string& text) { options.points.push_back(point_of(text)); },
+          .repeatable = true},
+         {.names = "--plane",
+          .type = "Y",
+          .help = "Height in metres of a work plane, horizontal, facing up, that blocks nothing; "
+                  "points inside of things are left out",
+          .target = [&options](double height) { options.height = height; },
+          .check = between(-kFarthest, kFarthest),
+          .excludes = "--at"},
+         {.names = "--spacing",
+          .type = "F",
+          .help = "Metres from point to point of the plane",
+          .default_value = "1/20 of its longer side",
+          .target = &options.spacing,
+          .check = positive(),
+          .needs = "--plane"},
+         {.names = "--bounds",
+          .type = "X0,Z0,X1,Z1",
+          .help = "Corners of the plane in metres",
+          .default_value = "the scene's",
+          .target = [&options](const std::string& text) { options.bounds = bounds_of(text); },
+          .needs = "--plane"},
+         {.names = "--samples",
+          .type = "N",
+          .help = "Rays of a point over its hemisphere, and as many towards lights",
+          .default_value = text_of(options.samples),
+          .target = &options.samples,
+          .check = whole(kMinSamples, kMaxSamples)}});
 }
 
-void add_files(CLI::App& app, MeasureOptions& options)
+void add_files(Command& command, MeasureOptions& options)
 {
-    app.option_defaults()->group(kFilesGroup);
-    app.add_option("--csv", options.table, "Write all points as a table")->type_name("FILE.csv");
-    app.add_option("--false-colour", options.picture,
-                   "Write a picture of the plane in false colours, with a legend in lux")
-        ->type_name("FILE.png")
-        ->needs(app.get_option("--plane"));
-    app.add_option("--preview", options.preview,
-                   "Write the view of preview.png in false colours, with a legend in lux")
-        ->type_name("FILE.png");
-    app.add_option("--width", options.width, "Width of that picture in pixels")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(1, kLargestAtlas))
-        ->needs(app.get_option("--preview"));
+    command.add(kFilesGroup,
+                {{.names = "--csv",
+                  .type = "FILE.csv",
+                  .help = "Write all points as a table",
+                  .target = &options.table},
+                 {.names = "--false-colour",
+                  .type = "FILE.png",
+                  .help = "Write a picture of the plane in false colours, with a legend in lux",
+                  .target = &options.picture,
+                  .needs = "--plane"},
+                 {.names = "--preview",
+                  .type = "FILE.png",
+                  .help = "Write the view of preview.png in false colours, with a legend in lux",
+                  .target = &options.preview},
+                 {.names = "--width",
+                  .type = "N",
+                  .help = "Width of that picture in pixels",
+                  .default_value = text_of(options.width),
+                  .target = &options.width,
+                  .check = whole(1, kLargestAtlas),
+                  .needs = "--preview"}});
 }
 
 }  // namespace
 
-Command measure_command(CLI::App& program)
+Command measure_command()
 {
     const auto given = std::make_shared<MeasureArguments>();
-    MeasureArguments& measure = *given;
-    CLI::App& command = *program.add_subcommand(
-        "measure", "Measure the light of a bake in lux: at points, or on a work plane");
-    command.add_option("folder", measure.folder, "What lumel bake wrote")
-        ->required()
-        ->type_name("FOLDER");
-    add_places(command, measure.options);
-    add_files(command, measure.options);
-    command.callback([&measure] {
-        const MeasureOptions& options = measure.options;
-        if (options.points.empty() && !options.height && options.preview.empty())
+    MeasureOptions& options = given->options;
+    Command command{.name = "measure",
+                    .help = "Measure the light of a bake in lux: at points, or on a work plane"};
+    command.add({bake_argument(given->folder)});
+    add_places(command, options);
+    add_files(command, options);
+    add_device_option(command, options.device);
+    add_talk_options(command, given->talk);
+    command.arguments = [given](const Command&) -> Arguments {
+        const MeasureOptions& wanted = given->options;
+        if (wanted.points.empty() && !wanted.height && wanted.preview.empty())
             refuse("lumel measure needs --at X,Y,Z, --plane Y or --preview FILE.png");
-    });
-    add_device_option(command, measure.options.device);
-    add_talk_options(command, measure.talk);
-    return {&command, [given]() -> Arguments { return *given; }};
+        return {*given};
+    };
+    return command;
 }
 
 }  // namespace lumel

@@ -2,29 +2,27 @@
 
 #include <algorithm>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/core/error.h"
+#include "option_values.h"
 
 namespace lumel {
 namespace {
 
-/// `standard`: its default. `note`: what else --help says.
-void add(CLI::App& app, GivenMethod& given, const OptionInfo& option, const std::string& standard,
-         const std::string& note = {})
+Option option_of(GivenMethod& given, const OptionInfo& info, const std::string& default_value)
 {
-    const std::string name = option.name;
-    app.add_option_function<std::string>(
-           "--" + name, [&given, name](const std::string& value) { given.values[name] = value; },
-           std::string(option.help) + note)
-        ->type_name(option.type)
-        ->default_str(standard);
+    const std::string name = info.name;
+    return {.names = "--" + name,
+            .type = info.type(),
+            .help = info.help,
+            .default_value = default_value,
+            .target = [&given, name](const std::string& value) { given.values[name] = value; }};
 }
 
 std::string default_of(const MethodInfo& method, const std::string& option)
 {
-    return method.option(option)->get(method.defaults());
+    return get_option(method.defaults(), *method.option(option));
 }
 
 bool among(const std::vector<std::string_view>& names, std::string_view name)
@@ -57,6 +55,14 @@ std::vector<std::string_view> all_methods()
     return ids;
 }
 
+/// Accepts the names of some methods.
+Check one_of(const std::vector<std::string_view>& ids)
+{
+    return [ids](const std::string& id) -> std::string {
+        return among(ids, id) ? "" : fmt::format("{} not in {{{}}}", id, fmt::join(ids, ","));
+    };
+}
+
 /// The default of the first reader, and those of others that differ.
 std::string defaults_of(const SharedOption& shared)
 {
@@ -72,29 +78,32 @@ std::string defaults_of(const SharedOption& shared)
 
 }  // namespace
 
-void add_methods(CLI::App& app, GivenMethod& given, const std::vector<std::string_view>& some,
+void add_methods(Command& command, GivenMethod& given, const std::vector<std::string_view>& some,
                  const std::vector<OmittedOption>& omitted)
 {
     const std::vector<std::string_view> ids = some.empty() ? all_methods() : some;
-    app.option_defaults()->group(kMethodGroup);
-    CLI::Option* solver = app.add_option("--solver", given.id, "Method, see lumel methods")
-                              ->type_name(listed(ids))
-                              ->capture_default_str();
+    Option solver{.names = "--solver",
+                  .type = listed(ids),
+                  .help = "Method, see lumel methods",
+                  .default_value = given.id,
+                  .target = &given.id};
     if (!some.empty())
-        solver->check(CLI::IsMember(std::vector<std::string>(ids.begin(), ids.end())));
+        solver.check = one_of(ids);
+    command.add(kMethodGroup, {solver});
     for (SharedOption shared : options_of_methods()) {
         std::erase_if(shared.readers, [&](const MethodInfo* reader) {
             return !among(ids, reader->id) || is_omitted(omitted, shared.info->name, reader->id);
         });
         if (shared.readers.empty())
             continue;
-        std::string note;
+        Option option = option_of(given, *shared.info, defaults_of(shared));
         if (shared.readers.size() < ids.size()) {
+            std::vector<std::string> readers;
             for (const MethodInfo* reader : shared.readers)
-                note += (note.empty() ? " (only " : ", ") + std::string(reader->id);
-            note += ")";
+                readers.push_back(reader->id);
+            option.help += " (only " + joined(readers, ", ") + ")";
         }
-        add(app, given, *shared.info, defaults_of(shared), note);
+        command.add(kMethodGroup, {option});
     }
 }
 
@@ -106,12 +115,11 @@ void refuse_omitted(const GivenMethod& given, const std::vector<OmittedOption>& 
                         "is not read by --solver " + given.id + " here");
 }
 
-void add_one_method(CLI::App& app, GivenMethod& given)
+void add_one_method(Command& command, GivenMethod& given)
 {
-    app.option_defaults()->group(kMethodGroup);
     const MethodInfo& method = method_of(given.id);
     for (const OptionInfo& option : method.options)
-        add(app, given, option, default_of(method, option.name));
+        command.add(kMethodGroup, {option_of(given, option, default_of(method, option.name))});
 }
 
 std::string names_of_methods()

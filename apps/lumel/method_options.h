@@ -5,11 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "command.h"
 #include "methods/methods.h"
-
-namespace CLI {
-class App;
-}
 
 namespace lumel {
 
@@ -23,7 +20,8 @@ struct OmittedOption {
 };
 
 /// --solver, and the options of all methods; or of those that `ids` names, but for what is omitted.
-void add_methods(CLI::App& app, GivenMethod& given, const std::vector<std::string_view>& ids = {},
+void add_methods(Command& command, GivenMethod& given,
+                 const std::vector<std::string_view>& ids = {},
                  const std::vector<OmittedOption>& omitted = {});
 
 /// Throws Error{input} if a value was given for an option that is omitted.
@@ -33,6 +31,6 @@ void refuse_omitted(const GivenMethod& given, const std::vector<OmittedOption>& 
 std::string names_of_methods();
 
 /// The options of the one method that `given` names.
-void add_one_method(CLI::App& app, GivenMethod& given);
+void add_one_method(Command& command, GivenMethod& given);
 
 }  // namespace lumel

@@ -2,6 +2,10 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include <fmt/core.h>
 
 #include "base/core/number.h"
 
@@ -24,10 +28,24 @@ std::optional<std::int64_t> whole_number_of(const std::string& text)
 
 }  // namespace
 
+std::string text_of(double value)
+{
+    return fmt::format("{:g}", value);
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& separator)
+{
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : separator) + word;
+    return text;
+}
+
 std::vector<double> coordinates_of(const std::string& text)
 {
     std::vector<double> numbers;
-    for (const std::string& part : CLI::detail::split(text, ',')) {
+    std::istringstream parts(text);
+    for (std::string part; std::getline(parts, part, ',');) {
         const auto number = number_of(part);
         if (!number || std::abs(*number) > kFarthest)
             return {};
@@ -36,48 +54,45 @@ std::vector<double> coordinates_of(const std::string& text)
     return numbers;
 }
 
-CLI::Validator whole(std::int64_t low, std::int64_t high)
+Check whole(std::int64_t low, std::int64_t high)
 {
-    const auto check = [low, high](const std::string& text) -> std::string {
+    return [low, high](const std::string& text) -> std::string {
         const auto value = whole_number_of(text);
         if (value && *value >= low && *value <= high)
             return {};
         return fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
     };
-    return CLI::Validator(check, "");
 }
 
-CLI::Validator positive()
+Check positive()
 {
-    const auto check = [](const std::string& text) -> std::string {
-        double value = 0.0;
-        if (CLI::detail::lexical_cast(text, value) && value > 0.0 && std::isfinite(value))
+    return [](const std::string& text) -> std::string {
+        char* end = nullptr;
+        const double value = double(std::strtold(text.c_str(), &end));  // as the parser reads it
+        if (end == text.c_str() + text.size() && value > 0.0 && std::isfinite(value))
             return {};
         return fmt::format("'{}' is not a number above 0", text);
     };
-    return CLI::Validator(check, "");
 }
 
-CLI::Validator link_rays()
+Check link_rays()
 {
-    const auto check = [](const std::string& text) -> std::string {
+    return [](const std::string& text) -> std::string {
         for (const char* const rays : {"4", "16", "64", "256"})
             if (text == rays)
                 return {};
         return fmt::format("'{}' is none of 4, 16, 64, 256", text);
     };
-    return CLI::Validator(check, "");
 }
 
-CLI::Validator between(double low, double high)
+Check between(double low, double high)
 {
-    const auto check = [low, high](const std::string& text) -> std::string {
+    return [low, high](const std::string& text) -> std::string {
         const auto value = number_of(text);
         if (value && *value >= low && *value <= high)
             return {};
         return fmt::format("'{}' is not a number from {:g} to {:g}", text, low, high);
     };
-    return CLI::Validator(check, "");
 }
 
 std::optional<std::uint64_t> bytes_of(const std::string& text)

@@ -2,28 +2,28 @@
 // Kinds of values that options take.
 
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-#include <fmt/core.h>
+#include "command.h"
 
 namespace lumel {
 
 /// Accepts whole numbers from `low` to `high`.
-CLI::Validator whole(std::int64_t low, std::int64_t high);
+Check whole(std::int64_t low, std::int64_t high);
 
 /// Accepts positive finite numbers.
-CLI::Validator positive();
+Check positive();
 
 /// Accepts the numbers of rays that lumels can keep as links: 4, 16, 64 and 256.
-CLI::Validator link_rays();
+Check link_rays();
 
 /// Accepts finite numbers from `low` to `high`.
-CLI::Validator between(double low, double high);
+Check between(double low, double high);
 
 /// Coordinates that floats still resolve to a decimetre [m].
 inline constexpr double kFarthest = 1e6;
@@ -34,34 +34,45 @@ std::vector<double> coordinates_of(const std::string& text);
 /// The bytes of "512M", "2G" or "1.5G"; nothing for what is no such size.
 std::optional<std::uint64_t> bytes_of(const std::string& text);
 
+/// A number as --help prints it: 0.5, 1e-06.
+std::string text_of(double value);
+inline std::string text_of(std::integral auto value)
+{
+    return std::to_string(value);
+}
+
+/// "a, b, c", with ", " for the separator.
+std::string joined(const std::vector<std::string>& words, const std::string& separator);
+
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
-/// An option that takes one of a few words. `value` and `choices` must outlive the parser.
+/// The option with the rest of what it needs to take one of a few words: type, default, target and
+/// check. `value` and `choices` must outlive the command.
 template <class Value>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
-                        const Choices<Value>& choices, const std::string& help)
+Option choice(Value& value, const Choices<Value>& choices, Option option)
 {
-    const auto assign = [&value, &choices](const std::string& word) {
-        for (const auto& [choice, meaning] : choices)
-            if (choice == word)
-                value = meaning;
-    };
     std::vector<std::string> words;
     std::string standard;
-    for (const auto& [choice, meaning] : choices) {
-        words.push_back(choice);
+    for (const auto& [word, meaning] : choices) {
+        words.push_back(word);
         if (meaning == value)
-            standard = choice;
+            standard = word;
     }
-    return app.add_option_function<std::string>(name, assign, help)
-        ->type_name(CLI::detail::join(words, "|"))
-        ->default_str(standard)
-        ->check([words](const std::string& word) -> std::string {
-            if (std::find(words.begin(), words.end(), word) != words.end())
-                return {};
-            return fmt::format("'{}' is none of {}", word, CLI::detail::join(words, ", "));
-        });
+    option.type = joined(words, "|");
+    if (option.default_value.empty() && !option.required)
+        option.default_value = standard;
+    option.target = [&value, &choices](const std::string& given) {
+        for (const auto& [word, meaning] : choices)
+            if (word == given)
+                value = meaning;
+    };
+    option.check = [words](const std::string& given) -> std::string {
+        if (std::find(words.begin(), words.end(), given) != words.end())
+            return {};
+        return "'" + given + "' is none of " + joined(words, ", ");
+    };
+    return option;
 }
 
 }  // namespace lumel

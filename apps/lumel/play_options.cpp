@@ -2,11 +2,9 @@
 
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include "base/core/error.h"
-#include "command.h"
 #include "method_options.h"
 #include "option_values.h"
 #include "shared_options.h"
@@ -30,69 +28,93 @@ const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution
 
 const Choices<Film> kFilms = {{"mp4", Film::mp4}, {"webm", Film::webm}, {"none", Film::none}};
 
-/// What is played, and how closely the light follows.
-void add_play_options(CLI::App& app, PlayOptions& options)
+/// What is played.
+void add_animation_options(Command& command, PlayOptions& options)
 {
-    app.option_defaults()->group(kAnimationGroup);
-    app.add_option("--frames", options.frames, "Number of frames")
-        ->type_name("N")
-        ->default_str("the animation's length")
-        ->check(whole(1, kMaxFrames));
-    app.add_option("--fps", options.fps, "Frames per second of the animation")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(between(1.0 / kMaxFps, kMaxFps));
-    app.add_option("--animation", options.animation, "Animation of the file by its number, from 0")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(0, kMaxAnimations));
-    add_choice(app, "--redistribution", options.redistribution, kRedistributions,
-               "With --solver progressive, how light follows a move: incremental shoots again past "
-               "the old and the new position, "
-               "as exact as a new solution; cross uses only views from what moves, which is faster "
-               "where that is small");
-    app.add_option("--leak", options.leak,
-                   "With --solver directions, the share of the running mean that each direction "
-                   "replaces: more follows faster and is noisier")
-        ->type_name("F")
-        ->capture_default_str()
-        ->check(between(kMinLeak, kMaxLeak));
-    app.add_option("--links", options.link_rays,
-                   "With --solver links, rays that each lumel keeps: 4, 16, 64 or 256")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(link_rays());
-    app.add_option(
-           "--budget", options.budget_ms,
-           "Milliseconds for the light of each frame; where they are not enough it lags behind")
-        ->type_name("MS")
-        ->default_str("as needed")
-        ->check(positive());
-    app.add_option_function<double>(
-           "--residual", [&options](double percent) { options.residual = percent / 100.0; },
-           "Light left to be shot, or to bounce, as a part of all, at which a solution is at rest; "
-           "with --solver directions, what is left of the light before a change")
-        ->type_name("PERCENT")
-        ->default_str(fmt::format("{:g}, {:g} with directions, {:g} with links",
-                                  100.0 * options.residual, 100.0 * LeakyOptions{}.residual,
-                                  100.0 * LiveLinksOptions{}.residual))
-        ->check(positive());
-    add_choice(app, "--film", options.film, kFilms,
-               "Film of the frames, where ffmpeg is installed: play.mp4 or play.webm");
-    app.add_option("--exposure", options.exposure,
-                   "Factor from cd/m2 to brightness, the same for all frames")
-        ->type_name("F")
-        ->default_str("as suits the first frame")
-        ->check(positive());
+    command.add(kAnimationGroup, {{.names = "--frames",
+                                   .type = "N",
+                                   .help = "Number of frames",
+                                   .default_value = "the animation's length",
+                                   .target = &options.frames,
+                                   .check = whole(1, kMaxFrames)},
+                                  {.names = "--fps",
+                                   .type = "N",
+                                   .help = "Frames per second of the animation",
+                                   .default_value = text_of(options.fps),
+                                   .target = &options.fps,
+                                   .check = between(1.0 / kMaxFps, kMaxFps)},
+                                  {.names = "--animation",
+                                   .type = "N",
+                                   .help = "Animation of the file by its number, from 0",
+                                   .default_value = text_of(options.animation),
+                                   .target = &options.animation,
+                                   .check = whole(0, kMaxAnimations)}});
+}
+
+/// How closely light follows.
+void add_follow_options(Command& command, PlayOptions& options)
+{
+    command.add(
+        kAnimationGroup,
+        {choice(options.redistribution, kRedistributions,
+                {.names = "--redistribution",
+                 .help = "With --solver progressive, how light follows a move: incremental shoots "
+                         "again past the old and the new position, as exact as a new solution; "
+                         "cross uses only views from what moves, which is faster where that is "
+                         "small"}),
+         {.names = "--leak",
+          .type = "F",
+          .help = "With --solver directions, the share of the running mean that each direction "
+                  "replaces: more follows faster and is noisier",
+          .default_value = text_of(options.leak),
+          .target = &options.leak,
+          .check = between(kMinLeak, kMaxLeak)},
+         {.names = "--links",
+          .type = "N",
+          .help = "With --solver links, rays that each lumel keeps: 4, 16, 64 or 256",
+          .default_value = text_of(options.link_rays),
+          .target = &options.link_rays,
+          .check = link_rays()},
+         {.names = "--budget",
+          .type = "MS",
+          .help = "Milliseconds for the light of each frame; where they are not enough it lags "
+                  "behind",
+          .default_value = "as needed",
+          .target = &options.budget_ms,
+          .check = positive()},
+         {.names = "--residual",
+          .type = "PERCENT",
+          .help = "Light left to be shot, or to bounce, as a part of all, at which a solution is "
+                  "at rest; with --solver directions, what is left of the light before a change",
+          .default_value =
+              fmt::format("{:g}, {:g} with directions, {:g} with links", 100.0 * options.residual,
+                          100.0 * LeakyOptions{}.residual, 100.0 * LiveLinksOptions{}.residual),
+          .target = [&options](double percent) { options.residual = percent / 100.0; },
+          .check = positive()}});
+}
+
+void add_film_options(Command& command, PlayOptions& options)
+{
+    command.add(
+        kAnimationGroup,
+        {choice(options.film, kFilms,
+                {.names = "--film",
+                 .help = "Film of the frames, where ffmpeg is installed: play.mp4 or play.webm"}),
+         {.names = "--exposure",
+          .type = "F",
+          .help = "Factor from cd/m2 to brightness, the same for all frames",
+          .default_value = "as suits the first frame",
+          .target = &options.exposure,
+          .check = positive()}});
 }
 
 /// Throws Error{input} if an option was given that is of another method.
-void refuse_others(const CLI::App& command, const std::string& method)
+void refuse_others(const Command& command, const std::string& method)
 {
     const std::pair<const char*, const char*> owners[] = {
         {"--redistribution", "progressive"}, {"--leak", "directions"}, {"--links", "links"}};
     for (const auto& [option, owner] : owners)
-        if (method != owner && command.count(option) > 0)
+        if (method != owner && command.given(option))
             throw Error(ErrorKind::input, option, "is not read by --solver " + method);
 }
 
@@ -105,22 +127,36 @@ double residual_of(const MethodOptions& method)
                                                         : LiveOptions{}.residual;
 }
 
+PlayArguments with_method(PlayArguments play, const Command& command, const GivenMethod& method)
+{
+    const MethodOptions chosen = method.options();
+    refuse_omitted(method, kOmitted);
+    refuse_others(command, method.id);
+    if (!command.given("--residual"))
+        play.options.residual = residual_of(chosen);
+    if (const auto* links = std::get_if<LinksOptions>(&chosen))
+        play.options.solver = *links;
+    else if (const auto* directions = std::get_if<DirectionsOptions>(&chosen))
+        play.options.solver = *directions;
+    else
+        play.options.solver = std::get<ProgressiveOptions>(chosen);
+    return play;
+}
+
 }  // namespace
 
-Command play_command(CLI::App& program)
+Command play_command()
 {
     const auto given = std::make_shared<PlayArguments>();
-    PlayArguments& play = *given;
     const auto method =
         std::make_shared<GivenMethod>(GivenMethod{.id = method_of(ProgressiveOptions{}).id});
-    CLI::App& command = *program.add_subcommand(
-        "play", "Render a scene's animation and correct the light from frame to frame");
-    PlayOptions& options = play.options;
-    command.add_option("scene", play.scene, "A .gltf or .glb file")->required()->type_name("FILE");
-    command.add_option("folder", play.folder, "Where the results go")
-        ->required()
-        ->type_name("FOLDER");
-    add_play_options(command, options);
+    PlayOptions& options = given->options;
+    Command command{.name = "play",
+                    .help = "Render a scene's animation and correct the light from frame to frame"};
+    command.add({scene_argument(given->scene), result_argument(given->folder)});
+    add_animation_options(command, options);
+    add_follow_options(command, options);
+    add_film_options(command, options);
     add_picture_options(command, options.camera, options.width);
     add_atlas_options(command, options.atlas);
     add_methods(command, *method,
@@ -128,21 +164,11 @@ Command play_command(CLI::App& program)
                  method_of(DirectionsOptions{}).id},
                 kOmitted);
     add_device_option(command, options.device);
-    add_talk_options(command, play.talk);
-    return {&command, [given, method, &command]() -> Arguments {
-                const MethodOptions chosen = method->options();
-                refuse_omitted(*method, kOmitted);
-                refuse_others(command, method->id);
-                if (command.count("--residual") == 0)
-                    given->options.residual = residual_of(chosen);
-                if (const auto* links = std::get_if<LinksOptions>(&chosen))
-                    given->options.solver = *links;
-                else if (const auto* directions = std::get_if<DirectionsOptions>(&chosen))
-                    given->options.solver = *directions;
-                else
-                    given->options.solver = std::get<ProgressiveOptions>(chosen);
-                return *given;
-            }};
+    add_talk_options(command, given->talk);
+    command.arguments = [given, method](const Command& parsed) -> Arguments {
+        return {with_method(*given, parsed, *method)};
+    };
+    return command;
 }
 
 }  // namespace lumel

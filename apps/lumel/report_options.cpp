@@ -2,28 +2,28 @@
 
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
-#include "command.h"
+#include "shared_options.h"
 
 namespace lumel {
 
-Command report_command(CLI::App& program)
+Command report_command()
 {
     const auto given = std::make_shared<ReportArguments>();
-    ReportArguments& report = *given;
-    CLI::App& command = *program.add_subcommand(
-        "report", "Write a page to walk through a bake and read its light, or to compare two");
-    command.add_option("folder", report.folder, "What lumel bake wrote")
-        ->required()
-        ->type_name("FOLDER");
-    command.add_option("other", report.other, "A second bake, shown beside the first by a slider")
-        ->type_name("FOLDER");
-    command.option_defaults()->group("Files");
-    command.add_option("-o,--output", report.page, "HTML file to write")
-        ->type_name("FILE")
-        ->default_str("report.html in the first folder");
-    return {&command, [given]() -> Arguments { return *given; }};
+    Command command{
+        .name = "report",
+        .help = "Write a page to walk through a bake and read its light, or to compare two"};
+    command.add({bake_argument(given->folder),
+                 {.names = "other",
+                  .type = "FOLDER",
+                  .help = "A second bake, shown beside the first by a slider",
+                  .target = &given->other}});
+    command.add("Files", {{.names = "-o,--output",
+                           .type = "FILE",
+                           .help = "HTML file to write",
+                           .default_value = "report.html in the first folder",
+                           .target = &given->page}});
+    command.arguments = [given](const Command&) -> Arguments { return {*given}; };
+    return command;
 }
 
 }  // namespace lumel

@@ -5,10 +5,7 @@
 #include <string>
 
 #include "arguments.h"
-
-namespace CLI {
-class App;
-}
+#include "command.h"
 
 namespace lumel {
 
@@ -22,43 +19,57 @@ inline constexpr int kLargestAtlas = 16384;  ///< side that common devices offer
 inline constexpr int kMaxShots = 2'000'000'000;
 inline constexpr int kMaxPaths = 100'000'000;
 
-void add_atlas_options(CLI::App& app, AtlasOptions& atlas);
+// Arguments.
+
+Option scene_argument(std::string& scene);
+
+/// A folder to write to.
+Option result_argument(std::string& folder);
+
+/// The folder of a finished bake.
+Option bake_argument(std::string& folder, const std::string& help = "What lumel bake wrote");
+
+// Options. The targets must outlive the command.
+
+void add_atlas_options(Command& command, AtlasOptions& atlas);
 
 /// Of what writes or measures lightmaps.
-void add_sides_option(CLI::App& app, AtlasOptions& atlas);
+void add_sides_option(Command& command, AtlasOptions& atlas);
 
 /// Light from outside, and what lamps are like.
-void add_light_options(CLI::App& app, LightOptions& lights);
+void add_light_options(Command& command, LightOptions& lights);
 
-void add_json_flag(CLI::App& app, bool& json);
+void add_json_flag(Command& command, bool& json);
 
-void add_talk_options(CLI::App& app, Talk& talk);
+void add_talk_options(Command& command, Talk& talk);
 
-/// When to stop. Without any of the three the bake ends at the default error.
-void add_stop_options(CLI::App& app, SolverOptions& solver);
+void add_stop_options(Command& command, SolverOptions& solver);
 
-void add_sky_directions_option(CLI::App& app, BakeOptions& options);
+/// Without --error, a solve with another limit has no target error. Call when all values are known.
+void drop_default_error(const Command& command, SolverOptions& solver);
 
-void add_keep_lights_option(CLI::App& app, bool& keep_lights);
+void add_sky_directions_option(Command& command, BakeOptions& options);
 
-void add_scene_file_options(CLI::App& app, BakeOptions& options);
+void add_keep_lights_option(Command& command, bool& keep_lights);
 
-void add_half_option(CLI::App& app, bool& half);
+void add_scene_file_options(Command& command, BakeOptions& options);
 
-void add_only_option(CLI::App& app, Parts& parts);
+void add_half_option(Command& command, bool& half);
 
-void add_directional_option(CLI::App& app, Directional& directional);
+void add_only_option(Command& command, Parts& parts);
 
-void add_device_option(CLI::App& app, std::string& device);
+void add_directional_option(Command& command, Directional& directional);
+
+void add_device_option(Command& command, std::string& device);
 
 /// How much memory a bake may take [bytes].
-void add_memory_option(CLI::App& app, std::uint64_t& bytes);
+void add_memory_option(Command& command, std::uint64_t& bytes);
 
-void add_dump_option(CLI::App& app, std::string& folder);
+void add_dump_option(Command& command, std::string& folder);
 
-void add_preview_option(CLI::App& app, int& width);
+void add_preview_option(Command& command, int& width);
 
 /// Who looks, and how finely.
-void add_picture_options(CLI::App& app, int& camera, int& width);
+void add_picture_options(Command& command, int& camera, int& width);
 
 }  // namespace lumel

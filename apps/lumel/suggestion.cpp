@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include "listing.h"
@@ -56,20 +55,20 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
     return nearest;
 }
 
-std::string unknown_command(const CLI::App& program, const std::string& word)
+std::string unknown_command(const Command& program, const std::string& word)
 {
     std::vector<std::string> names;
-    for (const CLI::App* command : commands_of(program))
-        names.push_back(command->get_name());
-    return fmt::format("{} is not a command of {}{}", word, program.get_name(),
-                       advice(word, names, program.get_name()));
+    for (const Command* command : commands_of(program))
+        names.push_back(command->name);
+    return fmt::format("{} is not a command of {}{}", word, program.name,
+                       advice(word, names, program.name));
 }
 
-std::string unknown_option(const CLI::App& command, const std::string& path,
-                           const std::string& word)
+std::string unknown_option(const Command& program, const Command& command, const std::string& word)
 {
+    const std::string path = path_of(program, command);
     std::vector<std::string> names;
-    for (const CLI::Option* option : options_of(command, false))
+    for (const Option* option : options_of(command))
         for (const std::string& name : names_of(*option))
             names.push_back(name);
     return fmt::format("{} is not an option of {}{}", word, path,

@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "command.h"
 
 namespace lumel {
 
@@ -15,10 +13,9 @@ namespace lumel {
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
 /// The sentence for a word that is no command of the program.
-std::string unknown_command(const CLI::App& program, const std::string& word);
+std::string unknown_command(const Command& program, const std::string& word);
 
-/// The sentence for a word that is no option of a command; `path` as typed: "lumel bake".
-std::string unknown_option(const CLI::App& command, const std::string& path,
-                           const std::string& word);
+/// The sentence for a word that is no option of a command of the program, or of the program itself.
+std::string unknown_option(const Command& program, const Command& command, const std::string& word);
 
 }  // namespace lumel

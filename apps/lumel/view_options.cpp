@@ -2,11 +2,9 @@
 
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include "base/core/error.h"
-#include "command.h"
 #include "method_options.h"
 #include "methods/methods.h"
 #include "option_values.h"
@@ -31,82 +29,97 @@ std::string commands_text()
     return text;
 }
 
-void add_session_options(CLI::App& app, ViewArguments& view)
+void add_script_options(Command& command, ViewArguments& view)
 {
-    app.option_defaults()->group(kSessionGroup);
-    app.add_option("--script", view.run.script, "File of commands that are played, see below")
-        ->type_name("FILE.txt");
-    app.add_flag("--headless", view.headless, "Open no window: play the script alone");
-    app.add_option("--folder", view.run.folder, "Where the files of the script go")
-        ->type_name("FOLDER")
-        ->default_str("the current one");
-    app.add_option("--movable", view.options.movable,
-                   "Name of what may be moved, turned and deleted; may be repeated")
-        ->type_name("NAME")
-        ->default_str("what is small beside the scene")
-        ->allow_extra_args(false);  // one at a time, so that a scene may follow
-    app.add_option("--budget", view.options.budget_ms, "Milliseconds for the light of each frame")
-        ->type_name("MS")
-        ->capture_default_str()
-        ->check(positive());
+    command.add(kSessionGroup,
+                {{.names = "--script",
+                  .type = "FILE.txt",
+                  .help = "File of commands that are played, see below",
+                  .target = &view.run.script},
+                 {.names = "--headless",
+                  .help = "Open no window: play the script alone",
+                  .target = &view.headless},
+                 {.names = "--folder",
+                  .type = "FOLDER",
+                  .help = "Where the files of the script go",
+                  .default_value = "the current one",
+                  .target = &view.run.folder},
+                 {.names = "--movable",
+                  .type = "NAME",
+                  .help = "Name of what may be moved, turned and deleted; may be repeated",
+                  .default_value = "what is small beside the scene",
+                  .target = &view.options.movable,
+                  .repeatable = true},
+                 {.names = "--budget",
+                  .type = "MS",
+                  .help = "Milliseconds for the light of each frame",
+                  .default_value = text_of(view.options.budget_ms),
+                  .target = &view.options.budget_ms,
+                  .check = positive()}});
 }
 
-void add_method_options(CLI::App& app, SessionOptions& options)
+void add_light_of_session(Command& command, SessionOptions& options)
 {
-    app.option_defaults()->group(kSessionGroup);
-    app.add_option_function<std::string>(
-           "--solver",
-           [&options](const std::string& id) {
-               options.solver = SolverOptions{.method = method_of(id).defaults()};
-           },
-           "Show the light of this method first, before the first edit; see lumel methods")
-        ->type_name(names_of_methods())
-        ->default_str("none: links that are kept");
-    app.add_option("--links", options.link_rays, "Rays that each lumel keeps: 4, 16, 64 or 256")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(link_rays());
-    app.add_option_function<double>(
-           "--residual", [&options](double percent) { options.residual = percent / 100.0; },
-           "Light left to bounce, as a part of all, at which light is at rest")
-        ->type_name("PERCENT")
-        ->default_str(fmt::format("{:g}", 100.0 * options.residual))
-        ->check(positive());
-    app.add_option("--seed", options.seed, "Random seed")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(0, kMaxSeed));
-    app.add_option("--animation", options.animation, "Animation of the file by its number, from 0")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(0, kMaxAnimations));
+    command.add(
+        kSessionGroup,
+        {{.names = "--solver",
+          .type = names_of_methods(),
+          .help = "Show the light of this method first, before the first edit; see lumel methods",
+          .default_value = "none: links that are kept",
+          .target =
+              [&options](const std::string& id) {
+                  options.solver = SolverOptions{.method = method_of(id).defaults()};
+              }},
+         {.names = "--links",
+          .type = "N",
+          .help = "Rays that each lumel keeps: 4, 16, 64 or 256",
+          .default_value = text_of(options.link_rays),
+          .target = &options.link_rays,
+          .check = link_rays()},
+         {.names = "--residual",
+          .type = "PERCENT",
+          .help = "Light left to bounce, as a part of all, at which light is at rest",
+          .default_value = text_of(100.0 * options.residual),
+          .target = [&options](double percent) { options.residual = percent / 100.0; },
+          .check = positive()},
+         {.names = "--seed",
+          .type = "N",
+          .help = "Random seed",
+          .default_value = text_of(options.seed),
+          .target = &options.seed,
+          .check = whole(0, kMaxSeed)},
+         {.names = "--animation",
+          .type = "N",
+          .help = "Animation of the file by its number, from 0",
+          .default_value = text_of(options.animation),
+          .target = &options.animation,
+          .check = whole(0, kMaxAnimations)}});
 }
 
 }  // namespace
 
-Command view_command(CLI::App& program)
+Command view_command()
 {
     const auto given = std::make_shared<ViewArguments>();
-    ViewArguments& view = *given;
-    view.run.folder = ".";
-    CLI::App& command = *program.add_subcommand(
-        "view", "Walk through a lit scene while things are moved and lamps dimmed");
-    command.add_option("scene", view.run.scene, "A .gltf or .glb file")
-        ->required()
-        ->type_name("FILE");
-    add_session_options(command, view);
-    add_method_options(command, view.options);
-    add_picture_options(command, view.options.camera, view.options.width);
-    add_light_options(command, view.options.lights);
-    add_atlas_options(command, view.options.atlas);
-    add_device_option(command, view.options.device);
-    add_talk_options(command, view.talk);
-    command.footer(commands_text());
-    command.callback([&view] {
-        if (view.headless && view.run.script.empty())
+    given->run.folder = ".";
+    SessionOptions& options = given->options;
+    Command command{.name = "view",
+                    .help = "Walk through a lit scene while things are moved and lamps dimmed",
+                    .footer = commands_text()};
+    command.add({scene_argument(given->run.scene)});
+    add_script_options(command, *given);
+    add_light_of_session(command, options);
+    add_picture_options(command, options.camera, options.width);
+    add_light_options(command, options.lights);
+    add_atlas_options(command, options.atlas);
+    add_device_option(command, options.device);
+    add_talk_options(command, given->talk);
+    command.arguments = [given](const Command&) -> Arguments {
+        if (given->headless && given->run.script.empty())
             throw Error(ErrorKind::input, "--headless", "needs --script FILE, which it plays");
-    });
-    return {&command, [given]() -> Arguments { return *given; }};
+        return {*given};
+    };
+    return command;
 }
 
 }  // namespace lumel

@@ -26,7 +26,7 @@ void add_given(CLI::App* figure, Settings& shared, const std::string& name)
                         shared.given.values[name] = value;
                     },
                     option.info->help)
-                ->type_name(option.info->type);
+                ->type_name(option.info->type());
 }
 
 CLI::App* add_figure(CLI::App& app, const std::string& name, const std::string& title,

@@ -12,8 +12,8 @@
 
 #include "base/core/usage.h"
 #include "bench/papers/matrix_case.h"
+#include "bench/papers/matrix_form.h"
 #include "bench/papers/matrix_pictures.h"
-#include "solve/matrix/compressed.h"
 
 namespace lumel::bench {
 namespace {
@@ -145,31 +145,23 @@ void add_reorderings(Report& report, const MatrixCase& matrix_case)
 
 struct FormOfCurve {
     std::string name;
-    std::function<CompressedMatrix()> make;
+    std::function<AnyMatrix()> make;
 };
-
-ColorMatrix whole(const CompressedMatrix& compressed)
-{
-    if (const auto* coded = std::get_if<CodedMatrix>(&compressed))
-        return decode(*coded);
-    if (const auto* low = std::get_if<LowRankMatrix>(&compressed))
-        return decompress(*low);
-    return decompress(std::get<TiledMatrix>(compressed));
-}
 
 std::vector<FormOfCurve> forms_of(const MatrixCase& matrix_case)
 {
     const auto coded = [&](const CodingOptions& options) {
-        return [&, options] { return CompressedMatrix(encode(matrix_case.bounces, options)); };
+        return [&, options] { return AnyMatrix(encode(matrix_case.bounces, options)); };
     };
     std::vector<FormOfCurve> forms;
-    const auto add = [&](std::string name, std::function<CompressedMatrix()> make) {
+    const auto add = [&](std::string name, std::function<AnyMatrix()> make) {
         forms.push_back({std::move(name), std::move(make)});
     };
     add("float", coded({.code = Code::float32}));
     add("half", coded({.code = Code::float16}));
-    for (const auto& [code, name] : {std::pair{Code::log8, "8-bit logarithm"},
-                                     std::pair{Code::bc4, "BC4"}, std::pair{Code::bc1, "BC1"}}) {
+    for (const auto& [code, name] :
+         {std::pair{Code::log8, "8-bit logarithm"}, std::pair{Code::bc4, "BC4"},
+          std::pair{Code::bc1_of_codes, "BC1 of codes"}, std::pair{Code::bc1, "BC1"}}) {
         const Reordering order =
             code == Code::log8 ? Reordering::none : Reordering::rows_and_columns;
         add(fmt::format("{}, the paper's settings", name),
@@ -182,13 +174,12 @@ std::vector<FormOfCurve> forms_of(const MatrixCase& matrix_case)
     for (const std::uint32_t part : {64u, 32u, 16u, 8u, 4u}) {
         const std::uint32_t rank = matrix_case.size() / part;
         add(fmt::format("low rank, {}", rank), [&, rank] {
-            return CompressedMatrix(
-                compress_low_rank(matrix_case.bounces, matrix_case.elements, rank));
+            return AnyMatrix(compress_low_rank(matrix_case.bounces, matrix_case.elements, rank));
         });
     }
     for (const float error : {0.1f, 0.05f, 0.02f, 0.01f, 0.005f, 0.002f})
         add(fmt::format("tiles, error {:g} %", kPercent * double(error)), [&, error] {
-            return CompressedMatrix(
+            return AnyMatrix(
                 compress_tiles(matrix_case.bounces, matrix_case.elements, {.error = error}));
         });
     return forms;
@@ -206,7 +197,7 @@ void add_curve(Report& report, const MatrixCase& matrix_case, const std::string&
         if (form.name.find(wanted) == std::string::npos)
             continue;
         const double begin = wall_seconds();
-        const CompressedMatrix compressed = form.make();
+        const AnyMatrix compressed = form.make();
         const double seconds = wall_seconds() - begin;
         const StateError error = light_error(matrix_case, whole(compressed));
         report.row({form.name, fixed(double(bytes_of(compressed)) / kMebibyte, 2),

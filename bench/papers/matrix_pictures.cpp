@@ -9,12 +9,11 @@
 #include "atlas/finish/finish.h"
 #include "base/images/image_files.h"
 #include "bench/papers/contact_sheet.h"
+#include "bench/papers/matrix_codes.h"
 #include "bench/reference.h"
 #include "bench/stopwatch.h"
 #include "methods/matrix/matrix.h"
 #include "results/preview/preview.h"
-#include "solve/matrix/coded_matrix.h"
-#include "solve/matrix/log_image.h"
 #include "solve/solver/solver.h"
 #include "truth/metrics.h"
 
@@ -65,11 +64,6 @@ LogImage difference(const LogImage& a, const LogImage& b, std::size_t channels)
             result.channel[c][i] =
                 c < channels ? kEnlarged * std::abs(a.channel[c][i] - b.channel[c][i]) : 0.0f;
     return result;
-}
-
-LogImage image_of(const CodedMatrix& coded)
-{
-    return from_words(coded.words, filled_up(coded.size), coded.code);
 }
 
 struct Solved {
@@ -147,7 +141,8 @@ void draw_matrix(Report& report, const MatrixCase& matrix_case, const std::strin
     const CodedMatrix coded =
         encode(matrix_case.bounces, papers_settings(Code::bc1, Reordering::rows_and_columns));
     const LogImage after = image_of(coded);
-    const LogImage wanted = reordered(before, coded.row_order, coded.column_order);
+    const LogImage wanted =
+        reordered(before, coded.decoding.row_order, coded.decoding.column_order);
     const std::uint32_t n = matrix_case.size();
     const std::string path = folder + "/matrix.png";
     write_png(path, contact_sheet({{picture_of(before, n), picture_of(after, n),

@@ -5,12 +5,15 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <random>
 
 #include <fmt/format.h>
 
 #include "base/core/error.h"
 #include "bench/papers/matrix_case.h"
+#include "bench/papers/matrix_codes_product.h"
+#include "bench/papers/matrix_low_rank_product.h"
 #include "bench/papers/matrix_speed.reflect.comp.h"
 #include "bench/papers/matrix_speed.row.comp.h"
 #include "bench/papers/matrix_speed.shared.h"
@@ -95,6 +98,9 @@ private:
     gpu::Kernel<shaders::MatrixSpeedReflect> reflect_;
 };
 
+using Record =
+    std::function<void(gpu::Commands&, const gpu::Array<glm::vec3>&, const gpu::Array<glm::vec3>&)>;
+
 double difference(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b)
 {
     double off = 0.0, all = 0.0;
@@ -106,21 +112,46 @@ double difference(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>&
     return std::sqrt(off / all);
 }
 
-std::vector<std::pair<std::string, CompressedMatrix>> forms_of(const MatrixCase& matrix_case)
+/// A matrix and its product, which is made when it is timed.
+struct TimedForm {
+    std::string name;
+    std::size_t bytes;
+    std::function<Record(const gpu::Device&)> product;
+};
+
+/// Product: constructed of the device and the matrix.
+template <class Product, class Matrix>
+TimedForm form_of(std::string name, Matrix matrix)
 {
-    std::vector<std::pair<std::string, CompressedMatrix>> forms;
+    const std::size_t bytes = matrix.bytes();
+    return {std::move(name), bytes, [matrix = std::move(matrix)](const gpu::Device& device) {
+                const auto product = std::make_shared<Product>(device, matrix, 1u);
+                return [product](gpu::Commands& commands, const gpu::Array<glm::vec3>& x,
+                                 const gpu::Array<glm::vec3>& y) {
+                    product->record(commands, x, y, 1u);
+                };
+            }};
+}
+
+std::vector<TimedForm> forms_of(const MatrixCase& matrix_case, bool textures)
+{
+    std::vector<TimedForm> forms;
     for (const auto& [code, name] :
          {std::pair{Code::float32, "float"}, std::pair{Code::float16, "half"},
           std::pair{Code::log8, "8-bit logarithm"}, std::pair{Code::bc4, "BC4"},
           std::pair{Code::bc1, "BC1"}})
-        forms.emplace_back(name, encode(matrix_case.bounces, {.code = code}));
+        forms.push_back(form_of<MultiplyCoded>(name, encode(matrix_case.bounces, {.code = code})));
+    if (textures)
+        forms.push_back(
+            form_of<MultiplyBc1>("BC1, texture", compress_bc1(matrix_case.bounces, {})));
     const std::uint32_t rank = matrix_case.size() / 8;
-    forms.emplace_back(fmt::format("low rank, {}", rank),
-                       compress_low_rank(matrix_case.bounces, matrix_case.elements, rank));
+    forms.push_back(form_of<MultiplyLowRank>(
+        fmt::format("low rank, {}", rank),
+        compress_low_rank(matrix_case.bounces, matrix_case.elements, rank)));
     for (const float error : {0.01f, 0.005f})
-        forms.emplace_back(
+        forms.push_back(form_of<MultiplyTiles>(
             fmt::format("tiles, error {:g} %", 100.0 * double(error)),
-            compress_tiles(matrix_case.bounces, matrix_case.elements, {.error = error}));
+            compress_tiles(matrix_case.bounces, matrix_case.elements, {.error = error})));
     return forms;
 }
 
@@ -150,11 +181,11 @@ void add_against_naive(Report& report, const gpu::Device& device, const MatrixCa
                     fixed(naive_time.cpu_ms, 2), fixed(naive_time.wall_ms, 2), none(), none(),
                     none(), fixed(100.0 * difference(y.download(), truth), 3)});
     }
-    for (const auto& [name, matrix] : forms_of(matrix_case)) {
-        Multiply product(device, matrix);
+    for (const TimedForm& form : forms_of(matrix_case, device.can_read_blocks())) {
+        const Record product = form.product(device);
         const Time time = time_of(device, settings.repeats,
-                                  [&](gpu::Commands& commands) { product.record(commands, x, y); });
-        report.row({name, fixed(double(bytes_of(matrix)) / mebi, 2), fixed(time.cpu_ms, 2),
+                                  [&](gpu::Commands& commands) { product(commands, x, y); });
+        report.row({form.name, fixed(double(form.bytes) / mebi, 2), fixed(time.cpu_ms, 2),
                     fixed(time.wall_ms, 2), fixed(naive_time.cpu_ms / time.cpu_ms, 1),
                     fixed(naive_time.wall_ms / time.wall_ms, 1),
                     fixed(by_processor ? naive_time.cpu_ms / time.cpu_ms
@@ -167,9 +198,11 @@ void add_against_naive(Report& report, const gpu::Device& device, const MatrixCa
 /// Random words: as valid as any, but for floats, which are drawn.
 CodedMatrix random_matrix(Code code, std::uint32_t n)
 {
-    CodedMatrix matrix{.code = code, .size = n, .largest = {1.0f, 1.0f, 1.0f}, .offset = 25.0f};
+    CodedMatrix matrix{.code = code,
+                       .decoding = {.size = n, .largest = {1.0f, 1.0f, 1.0f}, .offset = 25.0f},
+                       .words = {}};
     std::mt19937 random(1);
-    for (std::size_t c = 0; c < (code == Code::bc1 ? 1u : 3u); ++c) {
+    for (std::size_t c = 0; c < (is_bc1(code) ? 1u : 3u); ++c) {
         const std::size_t side = filled_up(n);
         matrix.words[c].resize(side * side * bits_of(code) / 32);
         for (std::uint32_t& word : matrix.words[c]) {
@@ -187,8 +220,8 @@ CodedMatrix random_matrix(Code code, std::uint32_t n)
 class RowByRow {
 public:
     RowByRow(const gpu::Device& device, const CodedMatrix& matrix)
-        : quads_(filled_up(matrix.size) / 4),
-          rows_(matrix.size),
+        : quads_(filled_up(matrix.decoding.size) / 4),
+          rows_(matrix.decoding.size),
           kernel_(device)
     {
         const std::size_t row_words = std::size_t(quads_) * 4;
@@ -267,18 +300,20 @@ void add_large(Report& report, const gpu::Device& device, const MatrixSpeedSetti
                             [&](gpu::Commands& commands) { simple.record(commands, in, out); });
             add("float, a group for each row", double(matrix.bytes()), plain);
         }
-        for (const Decoder decoder : {Decoder::shader, Decoder::hardware}) {
-            if (decoder == Decoder::hardware &&
-                (code != Code::bc1 || !device.can_read_blocks() || n > device.max_image_side()))
-                continue;
-            RowsProduct product(device, code,
-                                std::span(matrix.words).first(code == Code::bc1 ? 1 : 3), n, n,
-                                {.offset = matrix.offset}, decoder);
-            const Time time = time_of(device, settings.repeats, [&](gpu::Commands& commands) {
+        RowsProduct product(device, code, std::span(matrix.words).first(is_bc1(code) ? 1 : 3), n, n,
+                            {.offset = matrix.decoding.offset});
+        add(name, double(matrix.bytes()),
+            time_of(device, settings.repeats, [&](gpu::Commands& commands) {
                 product.record(commands, in, out, filled_up(n), 1);
-            });
-            add(decoder == Decoder::hardware ? "BC1, texture" : name, double(matrix.bytes()), time);
-        }
+            }));
+        if (code != Code::bc1 || !device.can_read_blocks() || n > device.max_image_side())
+            continue;
+        const std::vector<glm::vec3> white(n, glm::vec3(1.0f));
+        const gpu::Array<glm::vec3> x(device, std::span<const glm::vec3>(white)), y(device, n);
+        MultiplyBc1 texture(device, {matrix.decoding, matrix.words[0]}, 1);
+        add("BC1, texture", double(matrix.bytes()),
+            time_of(device, settings.repeats,
+                    [&](gpu::Commands& commands) { texture.record(commands, x, y, 1); }));
     }
 }
 

@@ -3,196 +3,14 @@
 #include <algorithm>
 
 #include "base/core/error.h"
-#include "methods/directions/directions_radiosity.h"
-#include "methods/option_tables.h"
 #include "solve/shooting/lumel_arrays.h"
 #include "solve/solver/solver.h"
 
 namespace lumel {
 namespace {
 
-using namespace option_tables;
-
-template <class Options>
-MethodOptions defaults()
-{
-    return Options{};
-}
-
 /// Emissive surfaces that are at least this share of all are met by enough directions.
 constexpr float kMuchShines = 1.0f / 16.0f;
-
-std::unique_ptr<Solver> make_directions(const SolverInputs& in, const DirectionsOptions& own,
-                                        double target_error)
-{
-    if (finds_emitted(own, in.lumels, in.known))
-        return std::make_unique<DirectionsRadiosity>(in.device, *in.world, *in.host, in.lumels, own,
-                                                     target_error, in.known, in.parts);
-    return std::make_unique<GlobalDirections>(in.device, *in.world, in.lumels, own, in.known);
-}
-
-template <class Method, class Options>
-std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& options)
-{
-    const auto& own = std::get<Options>(options.method);
-    if constexpr (std::is_same_v<Method, LinkRadiosity>)
-        return std::make_unique<Method>(in.device, *in.host, in.lumels, own, options.limits(),
-                                        in.parts);
-    else if constexpr (std::is_same_v<Method, GlossyIllumination>)
-        return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own, in.known,
-                                        in.particles, in.first_emission);
-    else if constexpr (std::is_same_v<Method, GlobalDirections>)
-        return make_directions(in, own, options.target_error);
-    else if constexpr (std::is_same_v<Method, GatherRadiosity>)
-        return std::make_unique<Method>(in.device, *in.world, in.lumels, own, options.target_error);
-    else if constexpr (std::is_same_v<Method, ProgressiveRadiosity>)
-        return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own);
-    else if constexpr (std::is_same_v<Method, MatrixRadiosity>)
-        return std::make_unique<Method>(in.device, *in.world, *in.host, in.lumels, in.near, own,
-                                        options.target_error, in.known);
-    else
-        return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own, in.known);
-}
-
-template <class Method, class Options>
-std::uint64_t bytes_of(const SolveSize& size, const MethodOptions& options)
-{
-    return Method::device_bytes(size, std::get<Options>(options));
-}
-
-constexpr float kUsualRadius = NearFieldOptions{}.radius;
-/// Glossy multiplies by the near field in every iteration, and what close pairs exchange loses its
-/// lobes: few pairs are better.
-constexpr float kGlossyRadius = 3.0f;
-/// Patches shoot from few points, so more of what is close to them is found exactly.
-constexpr float kPatchRadius = 6.0f;
-/// Along global directions no pair is too close, nor is any to a hemicube of its own.
-constexpr float kNoNearField = 0.0f;
-
-constexpr MethodInfo kMethods[] = {
-    {.id = "links",
-     .title = "Gathering over links that are traced once",
-     .paper = "",
-     .shots = "rays per lumel",
-     .advice = "the default: any scene with diffuse surfaces, buildings above all",
-     .materials = MaterialModel::diffuse,
-     .near_radius = kNoNearField,
-     .near_surroundings = false,
-     .on_device = false,
-     .finds_lights = true,
-     .states_dark_error = true,
-     .can_keep_sources = false,
-     .can_resume = true,
-     .defaults = defaults<LinksOptions>,
-     .options = kLinksOptions,
-     .make = make<LinkRadiosity, LinksOptions>,
-     .device_bytes = bytes_of<LinkRadiosity, LinksOptions>},
-    {.id = "stochastic",
-     .title = "Stochastic radiosity by perspective ray bundles",
-     .paper = "[BJ04], [BSS05]",
-     .shots = "shooters",
-     .advice = "small rooms of diffuse surfaces; the method that the others are compared with",
-     .materials = MaterialModel::diffuse,
-     .near_radius = kUsualRadius,
-     .near_surroundings = false,
-     .on_device = true,
-     .finds_lights = false,
-     .states_dark_error = false,
-     .can_keep_sources = false,
-     .can_resume = false,
-     .defaults = defaults<StochasticOptions>,
-     .options = kStochasticOptions,
-     .make = make<StochasticRadiosity, StochasticOptions>,
-     .device_bytes = bytes_of<StochasticRadiosity, StochasticOptions>},
-    {.id = "glossy",
-     .title = "Stochastic glossy global illumination",
-     .paper = "[BSS05], [NNS99]",
-     .shots = "shooters",
-     .advice = "light that metals and polished surfaces pass on; noisier than the default",
-     .materials = MaterialModel::glossy,
-     .near_radius = kGlossyRadius,
-     .near_surroundings = false,
-     .on_device = true,
-     .finds_lights = false,
-     .states_dark_error = false,
-     .can_keep_sources = false,
-     .can_resume = false,
-     .defaults = defaults<GlossyOptions>,
-     .options = kGlossyOptions,
-     .make = make<GlossyIllumination, GlossyOptions>,
-     .device_bytes = bytes_of<GlossyIllumination, GlossyOptions>},
-    {.id = "directions",
-     .title = "Global directions with stochastic depth buffering",
-     .paper = "[TN11]",
-     .shots = "directions",
-     .advice = "open scenes of diffuse surfaces under a sky",
-     .materials = MaterialModel::diffuse,
-     .near_radius = kNoNearField,
-     .near_surroundings = false,
-     .on_device = true,
-     .finds_lights = false,
-     .states_dark_error = false,
-     .can_keep_sources = false,
-     .can_resume = false,
-     .defaults = defaults<DirectionsOptions>,
-     .options = kDirectionsOptions,
-     .make = make<GlobalDirections, DirectionsOptions>,
-     .device_bytes = bytes_of<GlobalDirections, DirectionsOptions>},
-    {.id = "progressive",
-     .title = "Progressive refinement radiosity",
-     .paper = "[CCWG88], [Hoef13]",
-     .shots = "shooters",
-     .advice =
-         "small scenes of diffuse surfaces; the basis of animation, corrected when objects move",
-     .materials = MaterialModel::diffuse,
-     .near_radius = kPatchRadius,
-     .near_surroundings = false,
-     .on_device = true,
-     .finds_lights = false,
-     .states_dark_error = false,
-     .can_keep_sources = false,
-     .can_resume = false,
-     .defaults = defaults<ProgressiveOptions>,
-     .options = kProgressiveOptions,
-     .make = make<ProgressiveRadiosity, ProgressiveOptions>,
-     .device_bytes = bytes_of<ProgressiveRadiosity, ProgressiveOptions>},
-    {.id = "gather",
-     .title = "Gather radiosity by hemicubes on every lumel",
-     .paper = "[CG85], [Hoef13]",
-     .shots = "hemicubes",
-     .advice = "an independent reference for the others; slow, --hemicube 64 is enough",
-     .materials = MaterialModel::diffuse,
-     .near_radius = kNoNearField,
-     .near_surroundings = false,
-     .on_device = true,
-     .finds_lights = false,
-     .states_dark_error = false,
-     .can_keep_sources = false,
-     .can_resume = false,
-     .defaults = defaults<GatherOptions>,
-     .options = kGatherOptions,
-     .make = make<GatherRadiosity, GatherOptions>,
-     .device_bytes = bytes_of<GatherRadiosity, GatherOptions>},
-    {.id = "matrix",
-     .title = "Form-factor matrices of all reflections",
-     .paper = "[SF17]",
-     .shots = "rays per lumel",
-     .advice = "one scene under many lights: lumel relight takes milliseconds; small indirect "
-               "detail is lost",
-     .materials = MaterialModel::diffuse,
-     .near_radius = kPatchRadius,
-     .near_surroundings = true,
-     .on_device = true,
-     .finds_lights = false,
-     .states_dark_error = false,
-     .can_keep_sources = true,
-     .can_resume = false,
-     .defaults = defaults<MatrixOptions>,
-     .options = kMatrixOptions,
-     .make = make<MatrixRadiosity, MatrixOptions>,
-     .device_bytes = bytes_of<MatrixRadiosity, MatrixOptions>},
-};
-static_assert(std::size(kMethods) == std::variant_size_v<MethodOptions>);
 
 std::string listed(const std::vector<const MethodInfo*>& methods)
 {
@@ -206,7 +24,7 @@ std::string listed(const std::vector<const MethodInfo*>& methods)
 std::vector<const MethodInfo*> readers_of(std::string_view name)
 {
     std::vector<const MethodInfo*> readers;
-    for (const MethodInfo& method : kMethods)
+    for (const MethodInfo& method : methods())
         if (method.option(name))
             readers.push_back(&method);
     return readers;
@@ -215,7 +33,7 @@ std::vector<const MethodInfo*> readers_of(std::string_view name)
 /// Throws for an option that does nothing beside the others.
 void check_used(const MethodInfo& method, const OptionInfo& option, const MethodOptions& options)
 {
-    if (option.with && method.option(option.with)->get(options) != option.with_value)
+    if (option.with && get_option(options, *method.option(option.with)) != option.with_value)
         throw Error(ErrorKind::input, std::string("--") + option.name,
                     std::string("does nothing without --") + option.with + " " + option.with_value);
 }
@@ -230,15 +48,10 @@ const OptionInfo* MethodInfo::option(std::string_view name) const
     return nullptr;
 }
 
-std::span<const MethodInfo> methods()
-{
-    return kMethods;
-}
-
 const MethodInfo& method_of(std::string_view id)
 {
     std::vector<const MethodInfo*> known;
-    for (const MethodInfo& info : kMethods) {
+    for (const MethodInfo& info : methods()) {
         if (id == info.id)
             return info;
         known.push_back(&info);
@@ -249,7 +62,7 @@ const MethodInfo& method_of(std::string_view id)
 
 const MethodInfo& method_of(const MethodOptions& options)
 {
-    return *std::find_if(std::begin(kMethods), std::end(kMethods), [&](const MethodInfo& method) {
+    return *std::find_if(methods().begin(), methods().end(), [&](const MethodInfo& method) {
         return method.defaults().index() == options.index();
     });
 }
@@ -257,7 +70,7 @@ const MethodInfo& method_of(const MethodOptions& options)
 std::vector<SharedOption> options_of_methods()
 {
     std::vector<SharedOption> all;
-    for (const MethodInfo& method : kMethods)
+    for (const MethodInfo& method : methods())
         for (const OptionInfo& option : method.options)
             if (std::none_of(all.begin(), all.end(), [&](const SharedOption& known) {
                     return std::string_view(known.info->name) == option.name;
@@ -276,7 +89,7 @@ MethodOptions method_options(std::string_view id, const std::map<std::string, st
             throw Error(ErrorKind::input, "--" + name,
                         "is not read by --solver " + std::string(id) + "; it belongs to --solver " +
                             listed(readers_of(name)));
-        if (!option->set(options, value))
+        if (!set_option(options, *option, value))
             throw Error(ErrorKind::input, "--" + name + " " + value,
                         "must be " + option->range() + " with the method " + std::string(id));
     }
@@ -294,15 +107,25 @@ void check_limits(const SolverOptions& options)
                         ", which does not state the error of dark places");
 }
 
+std::string get_option(const MethodOptions& method, const OptionInfo& option)
+{
+    return std::visit([&](const auto& own) { return option.get(&own); }, method);
+}
+
+bool set_option(MethodOptions& method, const OptionInfo& option, const std::string& value)
+{
+    return std::visit([&](auto& own) { return option.set(&own, value); }, method);
+}
+
 bool set_option(MethodOptions& method, std::string_view name, const std::string& value)
 {
     const OptionInfo* option = method_of(method).option(name);
-    return option && option->set(method, value);
+    return option && set_option(method, *option, value);
 }
 
 bool has_near_field(const MethodOptions& method)
 {
-    return method_of(method).near_radius > kNoNearField && !is_papers(method);
+    return method_of(method).near_radius > 0.0f && !is_papers(method);
 }
 
 bool finds_emitted(const MethodOptions& method, const Lumels& lumels,

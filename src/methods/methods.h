@@ -16,49 +16,36 @@
 #include "raster/world/world.h"
 #include "scene/values/parts.h"
 #include "solve/solver/inputs.h"
+#include "solve/solver/option_info.h"
 #include "solve/solver/solve_size.h"
 #include "solve/solver/solver.h"
 
 namespace lumel {
 
-/// An option that a method reads, as text and in its struct.
-struct OptionInfo {
-    const char* name;  ///< as on the command line, without its dashes
-    const char* type;  ///< "N", or the words to choose from: "area|centre"
-    const char* help;
-    /// Only with this other option at this value, or null: "layers", "stochastic".
-    const char* with;
-    const char* with_value;
-    bool is_number;  ///< else one of a few words
-    /// "one of area, centre", "a whole number from 1 to 256"
-    std::string (*range)();
-    // Of a MethodOptions that holds the method's struct.
-    std::string (*get)(const MethodOptions& method);
-    /// False, and nothing changed, if the value is out of range.
-    bool (*set)(MethodOptions& method, const std::string& value);
-};
-
 /// A method of the table: what --solver takes.
 struct MethodInfo {
     const char* id;
     const char* title;
-    const char* paper;        ///< keys of docs/references.md
-    const char* shots;        ///< what SolverState::shots counts: "shooters"
-    const char* advice;       ///< when to use it
-    MaterialModel materials;  ///< what it reads of them
-    float near_radius;        ///< NearFieldOptions::radius that suits it; 0: it has no near field
-    bool near_surroundings;   ///< NearFieldOptions::surroundings
-    bool on_device;           ///< needs the scene there
-    bool finds_lights;        ///< of the sky and of lamps itself, and so direct light alone too
-    bool states_dark_error;   ///< SolverState::dark_error
-    bool can_keep_sources;    ///< keeps the light of every source apart, for lumel relight
-    bool can_resume;          ///< can go on from a state that was written, see Solver::write_state
-    MethodOptions (*defaults)();
+    const char* paper = "";  ///< keys of docs/references.md
+    const char* shots;       ///< what SolverState::shots counts: "shooters"
+    const char* advice;      ///< when to use it
+    MaterialModel materials = MaterialModel::diffuse;  ///< what it reads of them
+    float near_radius = 0.0f;        ///< NearFieldOptions::radius that suits it; 0: no near field
+    bool near_surroundings = false;  ///< NearFieldOptions::surroundings
+    bool on_device = true;           ///< needs the scene on the GPU
+    bool finds_lights = false;       ///< samples sky and lamps itself, and bakes direct light alone
+    bool states_dark_error = false;  ///< has SolverState::dark_error
+    bool can_keep_sources = false;   ///< keeps the light of each source apart, for lumel relight
+    bool can_resume = false;         ///< has Solver::write_state
     std::span<const OptionInfo> options;
-    std::unique_ptr<Solver> (*make)(const SolverInputs& inputs, const SolverOptions& options);
 
+    // By the type of its options.
+
+    MethodOptions (*defaults)() = nullptr;
+    std::unique_ptr<Solver> (*make)(const SolverInputs& inputs,
+                                    const SolverOptions& options) = nullptr;
     /// Device memory of the solver [bytes], roughly, and without the world.
-    std::uint64_t (*device_bytes)(const SolveSize& size, const MethodOptions& options);
+    std::uint64_t (*device_bytes)(const SolveSize& size, const MethodOptions& options) = nullptr;
 
     /// Null if it does not read an option of that name.
     const OptionInfo* option(std::string_view name) const;
@@ -94,7 +81,15 @@ struct GivenMethod {
 /// Throws Error{input} for a limit that the method knows nothing of.
 void check_limits(const SolverOptions& options);
 
-/// Sets an option if the method reads it; returns whether it does.
+/// The value of an option that the method reads.
+std::string get_option(const MethodOptions& method, const OptionInfo& option);
+
+/// Sets an option that the method reads. Returns false and changes nothing if the value is out of
+/// range.
+bool set_option(MethodOptions& method, const OptionInfo& option, const std::string& value);
+
+/// Sets an option by name. Returns false if the method does not read it, or the value is out of
+/// range.
 bool set_option(MethodOptions& method, std::string_view name, const std::string& value);
 
 /// Does the solver find the light of emissive surfaces apart, and so returns SolverInputs::parts?

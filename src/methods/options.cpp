@@ -1,6 +1,13 @@
 #include "methods/options.h"
 
 namespace lumel {
+namespace {
+
+/// Views from lumels, in a bake by a method that has none of its own.
+constexpr ViewOptions kOtherViews{.projection = Projection::hemicube, .hemicube = 256, .batch = 16};
+
+}  // namespace
+
 SampleRule rule_of(const MethodOptions& method)
 {
     return std::visit(
@@ -22,7 +29,7 @@ ViewOptions views_of(const MethodOptions& method)
             else if constexpr (requires { options.views; })
                 return options.views;
             else
-                return ViewOptions{};
+                return kOtherViews;
         },
         method);
 }

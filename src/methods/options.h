@@ -44,7 +44,7 @@ inline std::uint32_t seed_of(const MethodOptions& method)
 /// SampleRule::area of methods that have no other.
 SampleRule rule_of(const MethodOptions& method);
 
-/// The default of methods that do not look from eyes.
+/// Common defaults for methods without views from lumels.
 ViewOptions views_of(const MethodOptions& method);
 
 /// K, shooters of one step; 0 of methods without shooters.

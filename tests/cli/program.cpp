@@ -127,6 +127,8 @@ Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& o
         become_lumel(arguments, options.environment, out.theirs, err.theirs);
     close(out.theirs);
     close(err.theirs);
+    if (options.on_start)
+        options.on_start(child);
 
     std::optional<Killer> killer;
     if (options.kill_after > 0.0)

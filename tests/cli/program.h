@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
+
+#include <sys/types.h>
 
 namespace lumel::test {
 
@@ -13,6 +16,7 @@ struct RunOptions {
     std::string interrupt_at{};  ///< send SIGINT once stderr, a terminal, shows this stage
     double kill_after = 0.0;     ///< send SIGKILL after so long [s]; 0: never
     std::vector<std::string> environment{};  ///< NAME=VALUE, beside that of the test
+    std::function<void(pid_t)> on_start{};   ///< called with the number of its process
 };
 
 struct Outcome {

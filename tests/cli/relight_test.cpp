@@ -93,6 +93,17 @@ TEST(Relight, WithAllFactorsOneIsTheBake)
               0.003);  // of the compressed matrix, which aims at 0.2 %
 }
 
+TEST(Relight, ByThePapersFormIsTheBakeWithinAFewPerCent)
+{
+    const Bake bake({"--sky", "2,3,6", "--sky-directions", "256", "--form", "bc1"});
+    bake.relight({{"states", {{{"name", "as baked"}}}}});
+    EXPECT_LT(Bake::apart(bake.place.path("out/states/as baked.exr"),
+                          bake.place.path("out/lightmap.exr")),
+              0.03);
+    const Json report = Json::parse(bytes_of(bake.place.path("out/report.json")));
+    EXPECT_EQ(report["solver"]["options"]["form"], "bc1");
+}
+
 TEST(Relight, WithALampSwitchedOffIsABakeWithoutIt)
 {
     const Bake bake(kSky);

@@ -1,20 +1,21 @@
 #pragma once
-// A window of lumel view on a display of its own, and the hand that xdotool moves there.
+// A window of lumel view on a display of its own.
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdint>
-#include <cstdlib>
 #include <future>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include "display.h"
 #include "png_picture.h"
 #include "program.h"
 
@@ -22,92 +23,8 @@ namespace lumel::test {
 
 using Json = nlohmann::json;
 
-inline constexpr auto kPatience = std::chrono::seconds(120);  ///< on a machine that has other work
-inline constexpr auto kLook = std::chrono::milliseconds(50);
-
-inline bool has_program(const std::string& name)
-{
-    return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-/// Until it is so.
-template <class Truth>
-bool wait_until(const Truth& truth)
-{
-    const auto end = std::chrono::steady_clock::now() + kPatience;
-    while (!truth()) {
-        if (std::chrono::steady_clock::now() > end)
-            return false;
-        std::this_thread::sleep_for(kLook);
-    }
-    return true;
-}
-
-/// A display in memory, whose pixels lie in a file.
-class Display {
-public:
-    Display()
-    {
-        int ends[2];
-        if (pipe(ends) != 0)
-            throw std::runtime_error("pipe failed");
-        process_ = fork();
-        if (process_ == 0) {
-            close(ends[0]);
-            const std::string number = std::to_string(ends[1]), folder = place_.path("");
-            execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "800x600x24",
-                   "-fbdir", folder.c_str(), "-nolisten", "tcp", static_cast<char*>(nullptr));
-            _exit(127);
-        }
-        close(ends[1]);
-        char letter = 0;
-        while (read(ends[0], &letter, 1) == 1 && letter != '\n')
-            name_ += letter;
-        close(ends[0]);
-        name_ = ":" + name_;
-    }
-    ~Display()
-    {
-        kill(process_, SIGTERM);
-        waitpid(process_, nullptr, 0);
-    }
-    Display(const Display&) = delete;
-    Display& operator=(const Display&) = delete;
-
-    const std::string& name() const { return name_; }
-    int hand(const std::string& does) const
-    {
-        return std::system(
-            fmt::format("DISPLAY={} xdotool {} >/dev/null 2>&1", name_, does).c_str());
-    }
-    /// What is on it, from its top left. The file is in the form of xwd: a header of big-endian
-    /// words, colours of 12 bytes, and rows of pixels of 4 bytes, blue first.
-    Picture seen(int width, int height) const
-    {
-        const std::string bytes = bytes_of(place_.path("Xvfb_screen0"));
-        const auto word = [&](std::size_t i) {
-            std::uint32_t value = 0;
-            for (std::size_t k = 0; k < 4; ++k)
-                value = value << 8 | std::uint8_t(bytes[4 * i + k]);
-            return std::size_t(value);
-        };
-        const std::size_t pixels = word(0) + 12 * word(19), row = word(12);
-        Picture picture{width, height, {}};
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                for (const std::size_t channel : {2u, 1u, 0u})
-                    picture.rgb.push_back(std::uint8_t(
-                        bytes[pixels + std::size_t(y) * row + 4 * std::size_t(x) + channel]));
-        return picture;
-    }
-
-private:
-    const Workplace place_;
-    pid_t process_ = -1;
-    std::string name_;
-};
-
-/// A window that plays a script and then stays, until it is closed.
+/// A window that plays a script and then stays, until it is closed. Waits end early if the window
+/// or its display does, and say so.
 class Window {
 public:
     Window(const Display& display, const std::string& script,
@@ -121,37 +38,78 @@ public:
                                               "--width",  "240",
                                               "--json"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        outcome_ = std::async(std::launch::async, [arguments, name = display.name()] {
-            return run_lumel(arguments,
-                             {.environment = {"DISPLAY=" + name, "LIBGL_ALWAYS_SOFTWARE=1"}});
+        outcome_ = std::async(std::launch::async, [this, arguments] {
+            return run_lumel(
+                arguments,
+                {.environment = {"DISPLAY=" + display_->name(), "LIBGL_ALWAYS_SOFTWARE=1"},
+                 .on_start = [this](pid_t started) { process_ = started; }});
         });
     }
     ~Window()
     {
-        if (outcome_.valid())
+        if (!is_read_)
             close();
     }
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    bool has_written(const std::string& name) const
+    /// Waits until `truth` holds. what: the sentence of a failure.
+    template <class Truth>
+    ::testing::AssertionResult wait_until(const std::string& what, const Truth& truth) const
     {
-        return wait_until([&] { return !bytes_of(place.path("out/" + name)).empty(); });
+        constexpr auto kLook = std::chrono::milliseconds(20);
+        const auto end = std::chrono::steady_clock::now() + kPatience;
+        while (true) {
+            const std::string missing = missing_now();
+            if (truth())
+                return ::testing::AssertionSuccess();
+            if (!missing.empty())
+                return ::testing::AssertionFailure() << what << ": " << missing;
+            if (std::chrono::steady_clock::now() > end)
+                return ::testing::AssertionFailure() << what << " in " << kPatience.count() << " s";
+            std::this_thread::sleep_for(kLook);
+        }
     }
-    /// Once keys go to it.
-    bool is_there() const
+    ::testing::AssertionResult has_written(const std::string& name) const
     {
-        return wait_until(
-            [&] { return display_->hand("search --name lumel windowfocus --sync") == 0; });
+        return wait_until("no " + name, [&] { return is_written(name); });
     }
-    /// What it shows, by the key P.
+    /// Keys go to the window from now on.
+    ::testing::AssertionResult is_there() const
+    {
+        return wait_until("no window that takes keys", [&] {
+            return display_->try_hand("search --name lumel windowfocus --sync") == 0;
+        });
+    }
+
+    /// The picture that it shows, by the key P. All that was done before is in it: the window takes
+    /// keys in their order, and shows a frame after each.
     Picture shoot()
     {
-        display_->hand("mousemove 799 599 sleep 0.3 key p sleep 0.3");
         const std::string name = fmt::format("picture-{}.png", ++pictures_);
-        EXPECT_TRUE(has_written(name));
-        return read_picture(place.path("out/" + name));
+        // A key is not heard while light is traced.
+        constexpr auto kHeard = std::chrono::seconds(5);
+        auto again = std::chrono::steady_clock::now();
+        EXPECT_TRUE(wait_until("no " + name + " by the key P", [&] {
+            if (is_written(name))
+                return true;
+            if (const auto now = std::chrono::steady_clock::now(); now >= again) {
+                display_->hand("key p");
+                again = now + kHeard;
+            }
+            return false;
+        }));
+        return is_written(name) ? read_picture(place.path("out/" + name)) : Picture{};
     }
+    /// Sends mouse and keys, and waits until the window has taken them: a click is let go in the
+    /// frame after that of its press.
+    void hand(const std::string& does)
+    {
+        display_->hand(does);
+        shoot();
+        shoot();
+    }
+
     /// The state that it reports at its end.
     Json close()
     {
@@ -161,39 +119,59 @@ public:
         EXPECT_FALSE(json.is_discarded()) << outcome.out;
         return json.is_discarded() ? json : json["state"];
     }
+    /// Waits for its end; a window that does not end is killed.
     Outcome end()
     {
-        const Outcome outcome = outcome_.get();
-        EXPECT_EQ(outcome.code, 0) << outcome.err;
-        return outcome;
+        is_read_ = true;
+        const auto ended = wait_until("the window does not end", [&] { return has_ended(); });
+        EXPECT_TRUE(has_ended()) << ended.message();
+        if (!has_ended())
+            kill(process_, SIGKILL);
+        EXPECT_EQ(outcome_.get().code, 0) << outcome_.get().err;
+        return outcome_.get();
     }
 
     const Workplace place;
 
 private:
+    bool has_ended() const
+    {
+        return outcome_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    }
+    bool is_written(const std::string& name) const
+    {
+        return !bytes_of(place.path("out/" + name)).empty();
+    }
+    /// A sentence if the display or the window has ended, else empty.
+    std::string missing_now() const
+    {
+        if (std::string display = display_->missing(); !display.empty())
+            return display;
+        return has_ended() ? fmt::format("the window has ended with code {}: {}",
+                                         outcome_.get().code, outcome_.get().err)
+                           : "";
+    }
+
     const Display* display_;
-    std::future<Outcome> outcome_;
+    std::atomic<pid_t> process_ = -1;
+    std::shared_future<Outcome> outcome_;
+    bool is_read_ = false;
     int pictures_ = 0;
 };
 
-/// A test with a display.
+/// A test with a display of its own.
 class ViewWindow : public ::testing::Test {
 protected:
-    static void SetUpTestSuite()
-    {
-        if (has_program("Xvfb") && has_program("xdotool"))
-            display_.emplace();
-    }
-    static void TearDownTestSuite() { display_.reset(); }
     void SetUp() override
     {
-        if (!display_)
+        if (!has_program("Xvfb") || !has_program("xdotool"))
             GTEST_SKIP() << "Xvfb or xdotool is not installed";
+        display_.emplace();
     }
-    static const Display& display() { return *display_; }
+    const Display& display() const { return *display_; }
 
 private:
-    static inline std::optional<Display> display_;
+    std::optional<Display> display_;
 };
 
 }  // namespace lumel::test

@@ -14,7 +14,7 @@ TEST_F(ViewWindow, ShowsThePictureOfItsScriptAndOfOneWithoutAWindow)
     display().hand("mousemove 799 599");
     ASSERT_TRUE(window.has_written("a.png"));
     const Picture written = read_picture(window.place.path("out/a.png"));
-    EXPECT_TRUE(wait_until([&] {
+    EXPECT_TRUE(window.wait_until("another picture on the display", [&] {
         return difference(display().seen(written.width, written.height), written).most == 0;
     })) << difference(display().seen(written.width, written.height), written).most;
     window.close();
@@ -33,7 +33,8 @@ TEST_F(ViewWindow, AClickPicksWhatIsUnderTheMouse)
     ASSERT_TRUE(window.is_there());
     ASSERT_TRUE(window.has_written("ready.json"));
     EXPECT_EQ(Json::parse(bytes_of(window.place.path("out/ready.json")))["picked"], nullptr);
-    display().hand("mousemove 150 170 sleep 0.5 click 1 sleep 0.5");
+    window.hand("mousemove 150 170");
+    window.hand("click 1");
     const Json state = window.close();
     EXPECT_EQ(state["picked"]["name"], "short block");
     EXPECT_EQ(state["pixel"]["at"], Json::array({150, 170}));
@@ -45,7 +46,7 @@ TEST_F(ViewWindow, AKeyWalksToWhereTheCameraLooks)
     ASSERT_TRUE(window.is_there());
     ASSERT_TRUE(window.has_written("ready.json"));
     const Json before = Json::parse(bytes_of(window.place.path("out/ready.json")))["camera"];
-    display().hand("key w sleep 0.5");
+    window.hand("key w");
     const Json after = window.close()["camera"];
     // It looks along +z.
     EXPECT_GT(after["eye"][2].get<double>(), before["eye"][2].get<double>() + 0.005);
@@ -61,8 +62,9 @@ TEST_F(ViewWindow, WhatIsPickedIsDraggedAlongTheFloor)
     ASSERT_TRUE(window.has_written("ready.json"));
     const Json before =
         Json::parse(bytes_of(window.place.path("out/ready.json")))["picked"]["place"];
-    display().hand("mousemove 150 170 sleep 0.3 mousedown 1 sleep 0.3 mousemove 160 172 sleep 0.3 "
-                   "mousemove 180 175 sleep 0.5 mouseup 1 sleep 0.3");
+    for (const char* does : {"mousemove 150 170", "mousedown 1", "mousemove 160 172",
+                             "mousemove 180 175", "mouseup 1"})
+        window.hand(does);
     const Json state = window.close();
     ASSERT_EQ(state["picked"]["name"], "short block");
     const Json after = state["picked"]["place"];
@@ -77,8 +79,8 @@ TEST_F(ViewWindow, KeysPickNothingDeleteAndChangeTheMode)
     Window window(display(), "wait\npick \"short block\"\nstate ready.json\n");
     ASSERT_TRUE(window.is_there());
     ASSERT_TRUE(window.has_written("ready.json"));
-    display().hand("key Delete sleep 0.3 mousemove 150 170 sleep 0.3 click 1 sleep 0.3 key m "
-                   "sleep 0.3");
+    for (const char* does : {"key Delete", "mousemove 150 170", "click 1", "key m"})
+        window.hand(does);
     const Json state = window.close();
     EXPECT_NE(state["picked"]["name"], "short block");
     EXPECT_EQ(state["mode"], "irradiance");
@@ -89,9 +91,8 @@ TEST_F(ViewWindow, ASmallWindowIsAllPicture)
     Window window(display(), "wait\nstate ready.json\n");
     ASSERT_TRUE(window.is_there());
     ASSERT_TRUE(window.has_written("ready.json"));
-    display().hand("search --name lumel windowsize --sync 230 170 sleep 0.5 key p sleep 0.3");
-    ASSERT_TRUE(window.has_written("picture-1.png"));
-    const Picture picture = read_picture(window.place.path("out/picture-1.png"));
+    window.hand("search --name lumel windowsize --sync 230 170");
+    const Picture picture = window.shoot();
     EXPECT_EQ(picture.width, 230);
     EXPECT_EQ(picture.height, 170);
     const Json state = window.close();
@@ -133,18 +134,11 @@ TEST_F(ViewWindow, LightThatIsSolvedAnewKeepsWhatWasDone)
     ASSERT_TRUE(window.has_written("before.json"));
     const Json before = Json::parse(bytes_of(window.place.path("out/before.json")));
     ASSERT_NE(before["picked"], nullptr);
-    display().hand("key p sleep 0.5");
-    ASSERT_TRUE(window.has_written("picture-1.png"));
-    const Picture one = read_picture(window.place.path("out/picture-1.png"));
-    display().hand("key n sleep 1");
+    const Picture one = window.shoot();
+    window.hand("key n");
     // Moves are followed again, and then the picture is the one of before.
-    int number = 1;
-    EXPECT_TRUE(wait_until([&] {
-        const std::string name = fmt::format("picture-{}.png", ++number);
-        display().hand("key p sleep 0.5");
-        return window.has_written(name) &&
-               difference(one, read_picture(window.place.path("out/" + name))).mean < 0.1;
-    }));
+    EXPECT_TRUE(window.wait_until("another picture after the key N",
+                                  [&] { return difference(one, window.shoot()).mean < 0.1; }));
     const Json after = window.close();
     EXPECT_EQ(after["picked"], nullptr);  // it is another session
     EXPECT_EQ(after["lamps"], before["lamps"]);

@@ -23,16 +23,17 @@ constexpr int kSize = 32;  // of the atlas [texels]
 
 /// The Cornell box under a sky, with a lamp in it beside its own.
 struct Lit {
-    explicit Lit(const std::vector<PunctualLight>& lamps = {lamp()})
-        : setting(scene(lamps), device, options(), stages),
-          solution(solve_sources(device, setting, options(), stages))
+    explicit Lit(const std::vector<PunctualLight>& lamps = {lamp()},
+                 MatrixForm form = MatrixForm::tiles)
+        : setting(scene(lamps), device, options(form), stages),
+          solution(solve_sources(device, setting, options(form), stages))
     {
     }
 
-    static BakeOptions options()
+    static BakeOptions options(MatrixForm form)
     {
         BakeOptions options;
-        options.solver.method = MatrixOptions{.transport = {.patches = 150}};
+        options.solver.method = MatrixOptions{.transport = {.patches = 150}, .form = form};
         options.solver.target_error = 0.03;
         options.atlas.size = kSize;
         options.sky_directions = 64;
@@ -92,6 +93,7 @@ std::vector<glm::vec3> sum_of(std::vector<glm::vec3> a, const std::vector<glm::v
 
 constexpr float kHalfRounding = 1e-3f;  // of stored light
 constexpr float kMatrixError = 3e-3f;   // of the compressed matrix, which aims at 0.2 %
+constexpr float kPapersError = 0.03f;   // of its form, which "hardly differs" [SF17]
 constexpr float kCutBelow = 1e-3f;      // where a lumel's weights would make its light negative
 
 TEST(Relighting, IsTheSolutionAndLinearInItsFactors)
@@ -116,6 +118,28 @@ TEST(Relighting, IsTheSolutionAndLinearInItsFactors)
         EXPECT_EQ(states[1][i].b, 0.0f);
     }
     EXPECT_EQ(lit.device.validation_messages(), "");
+}
+
+/// The light of one source.
+std::vector<glm::vec3> alone(RelightSession& session, const std::string& source)
+{
+    const LightState state{.others = glm::vec3(0.0f), .lights = {{source, glm::vec3(1.0f)}}};
+    return session.irradiance(std::span(&state, 1)).front();
+}
+
+TEST(Relighting, ByThePapersFormIsTheSolutionAndThatByTilesWithinAFewPerCent)
+{
+    Lit papers({Lit::lamp()}, MatrixForm::bc1), tiles;
+    if (!papers.device.can_read_blocks())
+        GTEST_SKIP() << "the device has no block textures";
+    const Relightable& light = *papers.solution->relightable;
+    ASSERT_TRUE(std::holds_alternative<Bc1Matrix>(light.matrix));
+    RelightSession session(papers.device, light);
+    RelightSession other(tiles.device, *tiles.solution->relightable);
+    expect_alike(session.irradiance(), papers.solution->irradiance, kPapersError);
+    for (const std::string& source : session.names())
+        expect_alike(alone(session, source), alone(other, source), kPapersError);
+    EXPECT_EQ(papers.device.validation_messages(), "");
 }
 
 TEST(Relighting, AHundredStatesAreThoseOneByOne)
@@ -314,6 +338,18 @@ TEST(MatrixFile, ReadsBackWhatWasWritten)
     ASSERT_EQ(read.sources.size(), light.sources.size());
     RelightSession from_file(lit.device, file.path), session(lit.device, light);
     expect_alike(from_file.irradiance(), session.irradiance(), kHalfRounding);
+}
+
+TEST(MatrixFile, ReadsBackThePapersFormByteForByte)
+{
+    Lit lit({Lit::lamp()}, MatrixForm::bc1);
+    const File file;
+    write_relightable(file.path, *lit.solution->relightable);
+    const std::string written = file.bytes();
+    const Relightable read = read_relightable(file.path);
+    EXPECT_EQ(to_bytes(read.matrix), to_bytes(lit.solution->relightable->matrix));
+    write_relightable(file.path, read);
+    EXPECT_EQ(file.bytes(), written);
 }
 
 TEST(MatrixFile, CutOrAlteredIsRefused)

@@ -5,7 +5,7 @@
 
 #include "../support/source_folder.h"
 #include "bench/papers/matrix_case.h"
-#include "solve/matrix/coded_matrix.h"
+#include "bench/papers/matrix_codes.h"
 #include "solve/matrix/compressed_tiles.h"
 
 namespace lumel::bench {

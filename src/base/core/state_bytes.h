@@ -5,6 +5,7 @@
 //     template <class Archive>
 //     void state(Archive& archive) { archive(count_, values_); }
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <istream>
@@ -35,7 +36,7 @@ public:
     explicit StateWriter(std::ostream& to) : to_(to) {}
 
     template <class... Values>
-    void operator()(Values&... values)
+    void operator()(const Values&... values)
     {
         (write(values), ...);
     }
@@ -53,37 +54,42 @@ private:
         to_.write(static_cast<const char*>(data), std::streamsize(size));
     }
     template <class T>
-    void write(T& value)
+    void write(const T& value)
     {
         if constexpr (IsPlain<T, StateWriter>)
             bytes(&value, sizeof value);
         else
-            value.state(*this);
+            const_cast<T&>(value).state(*this);  // which only a reader changes
+    }
+    template <class T, std::size_t N>
+    void write(const std::array<T, N>& values)
+    {
+        for (const T& value : values)
+            write(value);
     }
     template <class T>
-    void write(std::vector<T>& values)
+    void write(const std::vector<T>& values)
     {
         const std::uint64_t size = values.size();
         bytes(&size, sizeof size);
         if constexpr (IsPlain<T, StateWriter>)
             bytes(values.data(), size * sizeof(T));
         else
-            for (T& value : values)
+            for (const T& value : values)
                 write(value);
     }
-    void write(std::string& text)
+    void write(const std::string& text)
     {
         const std::uint64_t size = text.size();
         bytes(&size, sizeof size);
         bytes(text.data(), size);
     }
-    void write(std::map<std::string, double>& values)
+    void write(const std::map<std::string, double>& values)
     {
-        std::uint64_t size = values.size();
+        const std::uint64_t size = values.size();
         write(size);
-        for (auto& [name, value] : values) {
-            std::string text = name;
-            write(text);
+        for (const auto& [name, value] : values) {
+            write(name);
             write(value);
         }
     }
@@ -95,11 +101,14 @@ private:
 /// Reads the output of a StateWriter. Throws Error{input} if it is damaged.
 class StateReader {
 public:
-    /// `size`: length of the stream [bytes]. where: its name, for messages.
-    StateReader(std::istream& from, std::uint64_t size, std::string where)
+    /// `size`: length of the stream [bytes]. where: its name, and damage: what is wrong with it,
+    /// for messages.
+    StateReader(std::istream& from, std::uint64_t size, std::string where,
+                std::string damage = "is damaged")
         : from_(from),
           left_(size),
-          where_(std::move(where))
+          where_(std::move(where)),
+          damage_(std::move(damage))
     {
     }
 
@@ -121,9 +130,10 @@ public:
     /// True if all bytes are read.
     bool at_end() const { return left_ == 0; }
 
-private:
-    [[noreturn]] void fail() const { throw Error(ErrorKind::input, where_, "is damaged"); }
+    /// Throws as for damage.
+    [[noreturn]] void fail() const { throw Error(ErrorKind::input, where_, damage_); }
 
+private:
     void bytes(void* data, std::uint64_t size)
     {
         if (size > left_ || !from_.read(static_cast<char*>(data), std::streamsize(size)))
@@ -148,6 +158,12 @@ private:
             bytes(&value, sizeof value);
         else
             value.state(*this);
+    }
+    template <class T, std::size_t N>
+    void read(std::array<T, N>& values)
+    {
+        for (T& value : values)
+            read(value);
     }
     template <class T>
     void read(std::vector<T>& values)
@@ -180,7 +196,7 @@ private:
 
     std::istream& from_;
     std::uint64_t left_;
-    std::string where_;
+    std::string where_, damage_;
     Fingerprint sum_;
 };
 

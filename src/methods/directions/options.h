@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "atlas/lumels/sample_rule.h"
-#include "raster/parallel/illumination_maps.h"
-#include "solve/shooting/iteration.h"
+#include "raster/parallel/layers.h"
+#include "solve/shooting/iteration_options.h"
 
 namespace lumel {
 

@@ -4,6 +4,7 @@
 //   [TN11] A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 
 #include "methods/directions/options.h"
+#include "raster/world/world.h"
 
 namespace lumel {
 

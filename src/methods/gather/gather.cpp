@@ -33,6 +33,7 @@
 #include <cmath>
 
 #include "atlas/near/near_field.h"
+#include "raster/eyes/eye_views.h"
 #include "raster/eyes/hemicube_tiles.h"
 #include "raster/eyes/view_options.h"
 #include "solve/shooting/lumel_arrays.h"

@@ -5,13 +5,13 @@
 
 #include "atlas/lumels/sample_rule.h"
 #include "raster/eyes/view_options.h"
-#include "solve/shooting/iteration.h"
+#include "solve/shooting/iteration_options.h"
 
 namespace lumel {
 
 struct GlossyOptions {
     std::uint32_t seed = 1;
-    ViewOptions views;
+    ViewOptions views{.projection = Projection::hemicube, .hemicube = 256, .batch = 16};
     SampleRule rule = SampleRule::area;  ///< of receivers
     Scheme scheme = Scheme::phased;
     /// With Scheme::paper: squares of 2^merge texels a side shoot as one from their common centre,

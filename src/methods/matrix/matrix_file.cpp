@@ -4,7 +4,7 @@
 //     8 bytes   version
 //     8 bytes   bytes of the contents
 //     8 bytes   their Fingerprint
-//     contents  in the order of fields(); a list is its length in 8 bytes, then its elements
+//     contents  in the order of contents(), by StateWriter
 //
 // Contents with a valid fingerprint are still checked before they are used as indices.
 
@@ -15,11 +15,13 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 #include <type_traits>
 
 #include "base/core/error.h"
 #include "base/core/files.h"
 #include "base/core/fingerprint.h"
+#include "base/core/state_bytes.h"
 #include "solve/matrix/half.h"
 #include "solve/matrix/stored.h"
 
@@ -52,175 +54,64 @@ std::span<const float> numbers_of(const std::vector<glm::vec3>& colors)
     return {colors.empty() ? nullptr : &colors.front().x, 3 * colors.size()};
 }
 
-class Writer {
-public:
-    template <class T>
-    void value(const T& value)
-    {
-        static_assert(std::is_trivially_copyable_v<T>);
-        append(&value, sizeof value);
-    }
-    template <class T>
-    void list(const std::vector<T>& values)
-    {
-        static_assert(std::is_trivially_copyable_v<T>);
-        value(std::uint64_t(values.size()));
-        append(values.data(), values.size() * sizeof(T));
-    }
-    void text(const std::string& text) { list(std::vector<char>(text.begin(), text.end())); }
-    /// The scale of all halves, then the numbers.
-    void halves(const std::vector<glm::vec3>& colors)
-    {
+/// Colours as one unit, then half floats in it.
+template <class Archive, class Colors>
+void halves(Archive& archive, Colors& colors)
+{
+    if constexpr (std::is_same_v<Archive, StateWriter>) {
         const std::span<const float> numbers = numbers_of(colors);
         const float unit = half_unit(numbers);
         std::vector<std::uint16_t> halves;
         halves.reserve(numbers.size());
         for (const float number : numbers)
             halves.push_back(to_half(number / unit));
-        value(unit);
-        list(halves);
-    }
-    template <class T, class Each>
-    void each(const std::vector<T>& values, const Each& write)
-    {
-        value(std::uint64_t(values.size()));
-        for (const T& value : values)
-            write(value);
-    }
-
-    std::vector<std::byte> bytes = std::vector<std::byte>(sizeof(Head));  ///< room for the head
-
-private:
-    void append(const void* data, std::size_t count)
-    {
-        const auto* first = static_cast<const std::byte*>(data);
-        bytes.insert(bytes.end(), first, first + count);
-    }
-};
-
-class Reader {
-public:
-    Reader(const std::string& path, std::span<const std::uint8_t> bytes)
-        : path_(&path),
-          bytes_(bytes)
-    {
-    }
-
-    [[noreturn]] void fail() const
-    {
-        throw Error(ErrorKind::input, *path_, "is damaged; bake the scene again");
-    }
-    template <class T>
-    void value(T& value)
-    {
-        take(&value, sizeof value);
-    }
-    template <class T>
-    void list(std::vector<T>& values)
-    {
-        values.resize(count(sizeof(T)));
-        take(values.data(), values.size() * sizeof(T));
-    }
-    void text(std::string& text)
-    {
-        std::vector<char> letters;
-        list(letters);
-        text.assign(letters.begin(), letters.end());
-    }
-    void halves(std::vector<glm::vec3>& colors)
-    {
+        archive(unit, halves);
+    } else {
         float unit = 0.0f;
         std::vector<std::uint16_t> halves;
-        value(unit);
-        list(halves);
+        archive(unit, halves);
         if (halves.size() % 3 != 0)
-            fail();
+            archive.fail();
         for (std::size_t i = 0; i < halves.size(); i += 3)
             colors.push_back(unit * glm::vec3(from_half(halves[i]), from_half(halves[i + 1]),
                                               from_half(halves[i + 2])));
     }
-    template <class T, class Each>
-    void each(std::vector<T>& values, const Each& read)
-    {
-        values.resize(count(1));
-        for (T& value : values)
-            read(value);
-    }
-    bool ended() const { return bytes_.empty(); }
+}
 
-private:
-    /// The length of a list whose elements take at least this number of bytes.
-    std::size_t count(std::size_t least)
-    {
-        std::uint64_t count = 0;
-        value(count);
-        if (count > bytes_.size() / least)
-            fail();
-        return std::size_t(count);
-    }
-    void take(void* to, std::size_t count)
-    {
-        if (count > bytes_.size())
-            fail();
-        if (count > 0)
-            std::memcpy(to, bytes_.data(), count);
-        bytes_ = bytes_.subspan(count);
-    }
-
-    const std::string* path_;
-    std::span<const std::uint8_t> bytes_;
-};
-
-template <class Archive, class Lamp>
-void lamp_fields(Archive& archive, Lamp& lamp)
+/// The length of a list, then its elements. A reader adds them one by one, so that damage does not
+/// ask for much memory.
+template <class Archive, class List, class Fields>
+void each(Archive& archive, List& list, const Fields& fields)
 {
-    archive.value(lamp.kind);
-    archive.text(lamp.name);
-    for (int c = 0; c < 3; ++c)
-        archive.value(lamp.color[c]);
-    for (auto* number : {&lamp.intensity, &lamp.range, &lamp.inner_cone, &lamp.outer_cone,
-                         &lamp.radius, &lamp.angle})
-        archive.value(*number);
-    archive.value(lamp.profile);
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            archive.value(lamp.transform[column][row]);
+    std::uint64_t count = list.size();
+    archive(count);
+    for (std::uint64_t i = 0; i < count; ++i) {
+        if constexpr (std::is_same_v<Archive, StateReader>)
+            list.emplace_back();
+        fields(list[i]);
+    }
 }
 
 /// All contents, in order, read from or written to `archive`. matrix: its bytes, empty without
 /// patches.
 template <class Archive, class Light, class Matrix>
-void fields(Archive& archive, Light& light, Matrix& matrix)
+void contents(Archive& archive, Light& light, Matrix& matrix)
 {
-    archive.text(light.scene_hash);
-    archive.value(light.side);
-    archive.list(light.place);
-    archive.list(light.area);
-    archive.halves(light.albedo);
-    archive.each(light.sources, [&](auto& source) {
-        archive.text(source.name);
-        archive.each(source.materials, [&](auto& name) { archive.text(name); });
-        archive.halves(source.direct);
-        archive.halves(source.reflected);
-        archive.each(source.lights, [&](auto& lamp) { lamp_fields(archive, lamp); });
+    archive(light.scene_hash, light.side, light.place, light.area);
+    halves(archive, light.albedo);
+    each(archive, light.sources, [&](auto& source) {
+        archive(source.name, source.materials);
+        halves(archive, source.direct);
+        halves(archive, source.reflected);
+        each(archive, source.lights, [&](auto& lamp) {
+            archive(lamp.kind, lamp.name, lamp.color, lamp.intensity, lamp.range, lamp.inner_cone,
+                    lamp.outer_cone, lamp.radius, lamp.angle, lamp.profile, lamp.transform);
+        });
     });
-    archive.each(light.profiles, [&](auto& profile) {
-        archive.text(profile.name);
-        archive.list(profile.candela);
-    });
-    for (int c = 0; c < 3; ++c)
-        archive.value(light.origin[c]);
-    archive.value(light.patches.side);
-    archive.list(light.patches.patch_of);
-    archive.each(light.patches.patches, [&](auto& patch) {
-        archive.value(patch.area);
-        for (auto* vector : {&patch.centre, &patch.normal, &patch.color})
-            for (int c = 0; c < 3; ++c)
-                archive.value((*vector)[c]);
-    });
-    archive.list(light.rows.first);
-    archive.list(light.rows.entry);
-    archive.list(matrix);
+    each(archive, light.profiles, [&](auto& profile) { archive(profile.name, profile.candela); });
+    static_assert(sizeof(VoxelPatch) == 10 * sizeof(float));  // written as it lies in memory
+    archive(light.origin, light.patches.side, light.patches.patch_of, light.patches.patches,
+            light.rows.first, light.rows.entry, matrix);
 }
 
 bool all_finite(std::span<const float> values)
@@ -315,41 +206,35 @@ void check_head(const std::string& path, const Bytes& bytes)
         throw Error(ErrorKind::input, path, "is cut short or damaged; bake the scene again");
 }
 
-CompressedMatrix matrix_of(const Reader& reader, const std::vector<std::byte>& bytes)
-{
-    try {
-        return from_bytes(bytes);
-    } catch (const Error&) {
-        reader.fail();  // which names the file
-    }
-}
-
 }  // namespace
 
 void write_relightable(const std::string& path, const Relightable& light)
 {
-    Writer writer;
-    const std::vector<std::byte> matrix =
-        light.patches.size() > 0 ? to_bytes(light.matrix) : std::vector<std::byte>();
-    fields(writer, light, matrix);
+    std::ostringstream stream;
     Head head;
-    head.bytes = writer.bytes.size() - sizeof head;
-    head.fingerprint = fingerprint_of(writer.bytes.data() + sizeof head, head.bytes);
-    std::memcpy(writer.bytes.data(), &head, sizeof head);
-    write_bytes(path, writer.bytes);
+    stream.write(reinterpret_cast<const char*>(&head), sizeof head);  // as long as the final one
+    StateWriter writer(stream);
+    const std::string matrix = light.patches.size() > 0 ? to_bytes(light.matrix) : "";
+    contents(writer, light, matrix);
+    std::string file = std::move(stream).str();
+    head.bytes = file.size() - sizeof head;
+    head.fingerprint = fingerprint_of(file.data() + sizeof head, head.bytes);
+    std::memcpy(file.data(), &head, sizeof head);
+    write_text(path, file);
 }
 
 Relightable read_relightable(const std::string& path)
 {
     const Bytes bytes = read_file(path, path);
     check_head(path, bytes);
-    Reader reader(path, std::span(bytes).subspan(sizeof(Head)));
+    std::istringstream stream(std::string(bytes.begin() + sizeof(Head), bytes.end()));
+    StateReader reader(stream, bytes.size() - sizeof(Head), path, kMatrixDamage);
     Relightable light;
-    std::vector<std::byte> matrix;
-    fields(reader, light, matrix);
+    std::string matrix;
+    contents(reader, light, matrix);
     if (light.patches.size() > 0)
-        light.matrix = matrix_of(reader, matrix);
-    if (!reader.ended() || !is_sound(light))
+        light.matrix = from_bytes(matrix, path);
+    if (!reader.at_end() || !is_sound(light))
         reader.fail();
     return light;
 }

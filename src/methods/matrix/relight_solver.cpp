@@ -225,8 +225,11 @@ Relightable RelightSolver::relightable(const std::string& hash) const
     if (transport_) {
         light.patches = transport_->patches;
         light.rows = transport_->rows;
-        light.matrix =
-            compress_tiles(transport_->bounces, elements_of(light.patches), {.error = kTileError});
+        if (matrix_.form == MatrixForm::bc1)
+            light.matrix = compress_bc1(transport_->bounces, {});
+        else
+            light.matrix = compress_tiles(transport_->bounces, elements_of(light.patches),
+                                          {.error = kTileError});
     }
     return light;
 }

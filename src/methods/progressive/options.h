@@ -9,7 +9,7 @@ namespace lumel {
 
 struct ProgressiveOptions {
     std::uint32_t seed = 1;  ///< of the near field: patches shoot from fixed points
-    ViewOptions views;
+    ViewOptions views{.projection = Projection::hemicube, .hemicube = 256, .batch = 16};
 };
 
 }  // namespace lumel

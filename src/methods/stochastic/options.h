@@ -5,13 +5,13 @@
 
 #include "atlas/lumels/sample_rule.h"
 #include "raster/eyes/view_options.h"
-#include "solve/shooting/iteration.h"
+#include "solve/shooting/iteration_options.h"
 
 namespace lumel {
 
 struct StochasticOptions {
     std::uint32_t seed = 1;
-    ViewOptions views;
+    ViewOptions views{.projection = Projection::hemicube, .hemicube = 256, .batch = 16};
     SampleRule rule = SampleRule::area;
     IterationOptions iteration;
     bool disc = true;  ///< with Scheme::paper: shooters are discs, [BSS05] Eq. (8)

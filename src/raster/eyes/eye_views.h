@@ -12,15 +12,11 @@
 #include "raster/eyes/hemicube.cut_out.raster.h"
 #include "raster/eyes/hemicube.raster.h"
 #include "raster/eyes/hemisphere_cuts.h"
+#include "raster/eyes/view_options.h"
 #include "raster/world/surface_rasters.h"
 #include "raster/world/world.h"
 
 namespace lumel {
-
-enum class Projection : std::uint32_t {
-    hemicube = kHemicube,      ///< five faces, each rasterised separately
-    hemisphere = kHemisphere,  ///< one disc, with edges subdivided to follow their curves
-};
 
 /// Pixels of a view of resolution `side` in the image.
 std::uint64_t view_pixels(Projection projection, std::uint32_t side);

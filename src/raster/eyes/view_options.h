@@ -1,14 +1,22 @@
 #pragma once
-// Resolution of shooters' views.
+// Projection and resolution of views from shooters.
 
-#include "raster/eyes/eye_views.h"
+#include <cstdint>
+
+#include "raster/eyes/eye_views.shared.h"
 
 namespace lumel {
 
+enum class Projection : std::uint32_t {
+    hemicube = kHemicube,      ///< five faces, each rasterised separately
+    hemisphere = kHemisphere,  ///< one disc, with edges subdivided to follow their curves
+};
+
+/// Without defaults: each method has its own.
 struct ViewOptions {
-    Projection projection = Projection::hemicube;
-    int hemicube = 256;  ///< side of the front face [pixels], see EyeViews
-    int batch = 16;      ///< K, eyes per batch
+    Projection projection;
+    int hemicube;  ///< side of the front face [pixels], see EyeViews
+    int batch;     ///< K, eyes per batch
 };
 
 }  // namespace lumel

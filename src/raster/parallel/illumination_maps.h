@@ -14,17 +14,12 @@
 #include "raster/parallel/illumination.stochastic.cut_out.raster.h"
 #include "raster/parallel/illumination.stochastic.raster.h"
 #include "raster/parallel/illumination_maps.shared.h"
+#include "raster/parallel/layers.h"
 #include "raster/parallel/parallel_views.h"
 #include "raster/world/surface_rasters.h"
 #include "raster/world/world.h"
 
 namespace lumel {
-
-enum class Layers : std::uint32_t {
-    stochastic = kStochasticLayers,  ///< [TN11] section 3: one random surface per pixel
-    list = kListedLayers,            ///< all surfaces, in a list per pixel
-    peel = kPeeledLayers,            ///< all surfaces, one per pixel and pass
-};
 
 /// Number of maps of a direction that is divided into slabs: one per slab, and one for the surfaces
 /// beyond each slab except the closest to the light.

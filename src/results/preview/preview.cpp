@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "atlas/lumels/sides.h"
 #include "base/core/bytes.h"
@@ -376,10 +377,18 @@ const Image& Preview::draw(const Scene& scene, const Image& map, const View& vie
     return parts.picture;
 }
 
+Image Preview::release()
+{
+    parts_->drawn.reset();
+    return std::exchange(parts_->picture, {});
+}
+
 Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,
                      const Image& irradiance, const View& view, int width, PreviewShows shows)
 {
-    return Preview(device, scene, atlas).draw(scene, irradiance, view, width, shows);
+    Preview preview(device, scene, atlas);
+    preview.draw(scene, irradiance, view, width, shows);
+    return preview.release();
 }
 
 }  // namespace lumel

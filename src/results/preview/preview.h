@@ -43,6 +43,8 @@ public:
     /// materials. Valid until the next call.
     const Image& draw(const Scene& scene, const Image& map, const View& view, int width,
                       PreviewShows shows = PreviewShows::light);
+    /// Moves the last picture out, so that there are not two of it.
+    Image release();
 
 private:
     struct Parts;

@@ -22,12 +22,12 @@ void each_limit(Options& options, const Visit& visit)
 /// Numbers as numbers, names as strings.
 Json json_of(const OptionInfo& option, const MethodOptions& method)
 {
-    const std::string text = option.get(method);
+    const std::string text = get_option(method, option);
     const auto number = number_of(text);
-    return option.is_number && number ? Json(std::int64_t(*number)) : Json(text);
+    return option.is_number() && number ? Json(std::int64_t(*number)) : Json(text);
 }
 
-/// For OptionInfo::set, which rejects other types.
+/// For set_option(), which rejects other types.
 std::string text_of(const Json& value)
 {
     return value.is_string() ? value.get<std::string>() : value.dump();
@@ -60,7 +60,7 @@ SolverOptions solver_options_of(const JsonView& settings)
     const JsonView own = settings.get("options");
     for (const OptionInfo& option : method_of(id).options) {
         const JsonView value = own.get(option.name);
-        if (!option.set(options.method, text_of(value.json())))
+        if (!set_option(options.method, option, text_of(value.json())))
             value.fail("must be " + option.range());
     }
     each_limit(options, FieldReader(settings.get("limits")));

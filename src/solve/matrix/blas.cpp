@@ -13,11 +13,6 @@ extern "C" void sgesv_(const int* n, const int* columns, float* a, const int* st
 extern "C" void ssyev_(const char* vectors, const char* half, const int* n, float* a,
                        const int* stride, float* values, float* work, const int* work_size,
                        int* info);
-extern "C" void sgeqrf_(const int* rows, const int* columns, float* a, const int* stride,
-                        float* factors, float* work, const int* work_size, int* info);
-extern "C" void sorgqr_(const int* rows, const int* columns, const int* reflectors, float* a,
-                        const int* stride, const float* factors, float* work, const int* work_size,
-                        int* info);
 
 namespace lumel::blas {
 namespace {
@@ -65,16 +60,6 @@ void eigenvectors(std::span<float> a, std::uint32_t n)
         std::swap_ranges(a.begin() + std::ptrdiff_t(row * n),
                          a.begin() + std::ptrdiff_t((row + 1) * n),
                          a.begin() + std::ptrdiff_t((n - 1 - row) * n));
-}
-
-void orthonormalise(std::span<float> a, std::uint32_t rows, std::uint32_t columns)
-{
-    const int length = int(columns), count = int(rows), work_size = kWorkPerColumn * count;
-    std::vector<float> factors(rows), work(std::max(work_size, 1));
-    int info = 0;
-    sgeqrf_(&length, &count, a.data(), &length, factors.data(), work.data(), &work_size, &info);
-    sorgqr_(&length, &count, &count, a.data(), &length, factors.data(), work.data(), &work_size,
-            &info);
 }
 
 std::string openblas_version()

@@ -30,9 +30,6 @@ bool solve_from_right(std::span<float> a, std::span<float> b, std::uint32_t n);
 /// a [n][n], symmetric, becomes its eigenvectors, one a row, that of the largest eigenvalue first.
 void eigenvectors(std::span<float> a, std::uint32_t n);
 
-/// Makes the rows of a [rows][columns], rows ≤ columns, orthonormal; they span what they did.
-void orthonormalise(std::span<float> a, std::uint32_t rows, std::uint32_t columns);
-
 /// Of the BLAS that is loaded: "0.3.21".
 std::string openblas_version();
 

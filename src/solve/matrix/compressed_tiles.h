@@ -31,6 +31,11 @@ struct TiledMatrix {
     float unit = 1.0f;                 ///< what a half float 1 means in a tile
     std::array<std::array<TileRows, 3>, kPrecisions> tiles;  ///< [precision][axis], column ≤ row
 
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(size, order, kept, basis, basis_unit, color, root_area, unit, tiles);
+    }
     std::uint32_t clusters() const { return std::uint32_t(kept.size()); }
     std::size_t bytes() const;
 };

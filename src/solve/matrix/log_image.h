@@ -1,36 +1,82 @@
 #pragma once
-// A color matrix as a picture of its logarithms, 0…255, in 8 bits or in texture blocks.
+// A color matrix as an image of logarithms, its largest entries apart [SF17 section 3.5].
 
 #include <span>
+#include <utility>
 
-#include "solve/matrix/coded_matrix.h"
+#include "base/core/parallel.h"
+#include "solve/matrix/bc1_blocks.h"
+#include "solve/matrix/color_matrix.h"
+#include "solve/matrix/reorder.h"
+#include "solve/matrix/sparse_part.h"
 
 namespace lumel {
 
-/// Channels [side][side], filled up with 0 to whole blocks.
+struct LogOptions {
+    float exact_share = 0.04f;  ///< of each row of each channel, kept as it is; 0…1
+    float offset = 12.0f;       ///< entries below e^-offset of the largest become 0
+    Reordering reordering = Reordering::rows_and_columns;
+    /// True: an entry that is kept exactly leaves the largest of the others in its place, and the
+    /// exact part holds the difference. False, as the paper: it leaves a 0, and whatever becomes of
+    /// that 0 is added to it.
+    bool mend = true;
+};
+
+/// Codes 0…255: channels [side][side], filled up with 0 to whole blocks.
 struct LogImage {
     std::uint32_t side = 0;
     std::array<std::vector<float>, 3> channel;
 };
 
-/// 0 for what is less than e^-offset of the channel's largest.
-LogImage log_image(const ColorMatrix& matrix, const std::array<float, 3>& largest, float offset);
+/// All that makes a matrix of its image.
+struct LogDecoding {
+    std::uint32_t size = 0;          ///< rows of the matrix
+    std::array<float, 3> largest{};  ///< of each channel, without the exact part
+    float offset = 0.0f;
+    std::vector<std::uint32_t> row_order, column_order;  ///< [size] row of the matrix; or empty
+    SparsePart exact;                                    ///< added, in the matrix's order
 
-/// The entry that a code stands for.
-float from_log_code(float code, float largest, float offset);
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(size, largest, offset, row_order, column_order, exact);
+    }
+    std::size_t bytes() const;
+};
 
-/// Likenesses of the image's first n rows, or columns, for order_by_likeness: [n][3 n].
-std::vector<float> likenesses(const LogImage& image, std::uint32_t n, bool columns);
+/// Code 0 stands for entries below e^-offset of the channel's largest. Throws Error{input} if the
+/// matrix has more columns than 16 bits can name.
+std::pair<LogImage, LogDecoding> take_logarithms(const ColorMatrix& matrix,
+                                                 const LogOptions& options);
+
+/// For LogOptions::mend: subtracts from the exact part what the image gives once it is stored.
+void mend(LogDecoding& decoding, const LogImage& stored);
+
+ColorMatrix from_logarithms(const LogImage& stored, const LogDecoding& decoding);
 
 /// Place (i, j) gets what was at (rows[i], columns[j]).
 LogImage reordered(const LogImage& image, std::span<const std::uint32_t> rows,
                    std::span<const std::uint32_t> columns);
 
-/// Words of a matrix in one of the codes log8, bc1 and bc4; and back, as near as they are.
-/// largest, offset: as log_image() was given them.
-std::array<std::vector<std::uint32_t>, 3>
-to_words(const LogImage& image, const std::array<float, 3>& largest, float offset, Code code);
-LogImage from_words(const std::array<std::vector<std::uint32_t>, 3>& words, std::uint32_t side,
-                    Code code);
+/// `size` filled up to a whole number of blocks.
+constexpr std::uint32_t filled_up(std::uint32_t size)
+{
+    return (size + kBlockSide - 1) / kBlockSide * kBlockSide;
+}
+
+/// Calls body(number, texel) for every block, row by row: texel(i) is the index of its texel i.
+template <class Body>
+void for_blocks(std::uint32_t side, const Body& body)
+{
+    const std::size_t blocks = side / kBlockSide;
+    parallel_for(blocks, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row)
+            for (std::size_t column = 0; column < blocks; ++column)
+                body(row * blocks + column, [&](std::size_t i) {
+                    return (row * kBlockSide + i / kBlockSide) * side + column * kBlockSide +
+                           i % kBlockSide;
+                });
+    });
+}
 
 }  // namespace lumel

@@ -3,30 +3,20 @@
 namespace lumel {
 namespace {
 
-using AnyForm = std::variant<MultiplyCoded, MultiplyLowRank, MultiplyTiles>;
+using AnyForm = std::variant<MultiplyTiles, MultiplyBc1>;
 
-struct MakeForm {
-    const gpu::Device& device;
-    std::uint32_t states;
-
-    AnyForm operator()(const CodedMatrix& matrix) const
-    {
-        return AnyForm(std::in_place_type<MultiplyCoded>, device, matrix, states);
-    }
-    AnyForm operator()(const LowRankMatrix& matrix) const
-    {
-        return AnyForm(std::in_place_type<MultiplyLowRank>, device, matrix, states);
-    }
-    AnyForm operator()(const TiledMatrix& matrix) const
-    {
-        return AnyForm(std::in_place_type<MultiplyTiles>, device, matrix, states);
-    }
-};
+AnyForm form_of(const gpu::Device& device, const CompressedMatrix& matrix, std::uint32_t states)
+{
+    if (const auto* bc1 = std::get_if<Bc1Matrix>(&matrix))
+        return AnyForm(std::in_place_type<MultiplyBc1>, device, *bc1, states);
+    return AnyForm(std::in_place_type<MultiplyTiles>, device, std::get<TiledMatrix>(matrix),
+                   states);
+}
 
 }  // namespace
 
 Multiply::Multiply(const gpu::Device& device, const CompressedMatrix& matrix, std::uint32_t states)
-    : form_(std::visit(MakeForm{device, states}, matrix))
+    : form_(form_of(device, matrix, states))
 {
 }
 

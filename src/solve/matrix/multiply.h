@@ -1,11 +1,8 @@
 #pragma once
 // A stored matrix times colours of patches, on the GPU.
 
-#include <variant>
-
 #include "solve/matrix/compressed.h"
-#include "solve/matrix/multiply_coded.h"
-#include "solve/matrix/multiply_low_rank.h"
+#include "solve/matrix/multiply_bc1.h"
 #include "solve/matrix/multiply_tiles.h"
 
 namespace lumel {
@@ -22,7 +19,7 @@ public:
                 const gpu::Array<glm::vec3>& y, std::uint32_t states = 1);
 
 private:
-    std::variant<MultiplyCoded, MultiplyLowRank, MultiplyTiles> form_;
+    std::variant<MultiplyTiles, MultiplyBc1> form_;
 };
 
 }  // namespace lumel

@@ -15,6 +15,12 @@ struct SparsePart {
     std::array<std::vector<std::uint16_t>, 3> column;  ///< [size][per_row], ascending in a row
     std::array<std::vector<float>, 3> value;           ///< [size][per_row]
 
+    /// For StateWriter and StateReader.
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(size, per_row, column, value);
+    }
     std::size_t bytes() const
     {
         return 3 * std::size_t(size) * per_row * (sizeof(std::uint16_t) + sizeof(float));

@@ -1,19 +1,20 @@
 #pragma once
 // Compressed matrices as bytes, for files.
 
-#include <cstddef>
-#include <span>
-#include <vector>
+#include <string>
 
 #include "solve/matrix/compressed.h"
 
 namespace lumel {
 
-/// About bytes_of(matrix) of them.
-std::vector<std::byte> to_bytes(const CompressedMatrix& matrix);
+/// What is wrong with a file whose bytes do not fit together.
+inline constexpr const char* kMatrixDamage = "is damaged; bake the scene again";
 
-/// What to_bytes made them of. Every index in the result is within its bounds. Throws Error{input}
-/// if the bytes are no such matrix, or not all of one.
-CompressedMatrix from_bytes(std::span<const std::byte> bytes);
+/// About bytes_of(matrix) of them.
+std::string to_bytes(const CompressedMatrix& matrix);
+
+/// Inverse of to_bytes. Every index in the result is within its bounds. Throws Error{input}, which
+/// names the file `where`, if the bytes are no such matrix, or not all of one.
+CompressedMatrix from_bytes(const std::string& bytes, const std::string& where);
 
 }  // namespace lumel

@@ -33,6 +33,13 @@ struct TileRows {
     /// Upper 16 bits: half float, what the largest code means; lower: the tile's column.
     std::vector<std::uint32_t> place;
     std::vector<std::uint32_t> codes;  ///< per tile: 16 of kTileBits each, row by row
+
+    /// For StateWriter and StateReader.
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(first, place, codes);
+    }
 };
 
 /// Adds a tile to the row that is being filled.

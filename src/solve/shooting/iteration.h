@@ -15,22 +15,11 @@
 #include "solve/shooting/iteration.fade.comp.h"
 #include "solve/shooting/iteration.polish.comp.h"
 #include "solve/shooting/iteration.shared.h"
+#include "solve/shooting/iteration_options.h"
 #include "solve/shooting/lumel_sums.h"
 #include "solve/solver/solver_state.h"
 
 namespace lumel {
-
-enum class Scheme {
-    phased,  ///< source frozen in phases of doubling length, near pairs exact (the default)
-    paper,   ///< the papers' iteration: random shooters, running average, no near field
-};
-
-struct IterationOptions {
-    Scheme scheme = Scheme::phased;
-    /// Scheme::paper: fraction of the solution that each shot replaces, [TN11] section 5 (0.01), so
-    /// that it follows changes of the light. 0: the mean of all shots, which converges.
-    double leak = 0.0;
-};
 
 /// Two half-solutions on the GPU. For each batch the solver calls begin_batch(), adds T* E to
 /// direct() and T* X to indirect() in the half given by half(), and calls finish_batch(). X is the

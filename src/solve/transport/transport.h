@@ -4,15 +4,10 @@
 #include "solve/matrix/color_matrix.h"
 #include "solve/transport/form_factors.h"
 #include "solve/transport/lumel_rows.h"
+#include "solve/transport/transport_options.h"
 #include "solve/transport/voxel_patches.h"
 
 namespace lumel {
-
-struct TransportOptions {
-    ViewOptions views;
-    std::uint32_t patches = 2048;  ///< maximum n
-    std::uint32_t bounces = 0;     ///< reflections k, 0: all
-};
 
 /// Light transport between the patches of a scene, independent of the light sources.
 struct Transport {

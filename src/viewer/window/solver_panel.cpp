@@ -63,10 +63,10 @@ void show_option(const OptionInfo& option, GivenMethod& given, const std::string
 {
     const auto found = given.values.find(option.name);
     std::string value = found == given.values.end() ? standard : found->second;
-    if (option.is_number)
+    if (option.is_number())
         ImGui::InputText(option.name, &value);
     else
-        choose(option.name, words_of(option.type), value);
+        choose(option.name, words_of(option.type()), value);
     if (value == standard)
         given.values.erase(option.name);
     else
@@ -82,14 +82,14 @@ void show_options(GivenMethod& given)
         if (option.with) {
             const auto found = given.values.find(option.with);
             const std::string other = found == given.values.end()
-                                          ? method.option(option.with)->get(defaults)
+                                          ? get_option(defaults, *method.option(option.with))
                                           : found->second;
             if (other != option.with_value) {
                 given.values.erase(option.name);
                 continue;
             }
         }
-        show_option(option, given, option.get(defaults));
+        show_option(option, given, get_option(defaults, option));
     }
 }
 

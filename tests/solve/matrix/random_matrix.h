@@ -29,4 +29,14 @@ inline ColorMatrix shuffled_kernel(std::uint32_t n, unsigned seed)
     return matrix;
 }
 
+/// Of all entries of all channels.
+inline double squared_difference(const ColorMatrix& a, const ColorMatrix& b)
+{
+    double sum = 0.0;
+    for (int c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < a.channel[c].values.size(); ++i)
+            sum += std::pow(double(a.channel[c].values[i]) - double(b.channel[c].values[i]), 2);
+    return sum;
+}
+
 }  // namespace lumel

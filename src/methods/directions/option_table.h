@@ -1,0 +1,52 @@
+#pragma once
+// The options of illumination along directions as a table.
+
+#include "methods/directions/options.h"
+#include "solve/shooting/common_options.h"
+
+namespace lumel {
+
+inline constexpr std::int64_t kMaxDirectionBatch = 256;  // maps that common devices' images hold
+inline constexpr std::int64_t kMaxSlabs = 64;            // a direction has twice as many maps
+inline constexpr std::int64_t kMinMapSide = 16, kMaxMapSide = 4096;  // [pixels]
+
+inline constexpr OptionWord kLayers[] = {
+    {"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}};
+inline constexpr OptionWord kLookups[] = {{"1", 1}, {"3", 3}, {"5", 5}};
+inline constexpr OptionWord kAutomatic[] = {{"auto", 0}};
+
+inline constexpr OptionInfo kDirectionsOptions[] = {
+    seed_option(member<&DirectionsOptions::seed>),
+    scheme_option(member<&DirectionsOptions::iteration, &IterationOptions::scheme>),
+    sampling_option(member<&DirectionsOptions::rule>),
+    batch_option(member<&DirectionsOptions::batch>, kMaxDirectionBatch),
+    {.name = "layers",
+     .help =
+         "What is kept of surfaces behind one another: all of them, at once (list) or one after "
+         "another (peel), or one a pixel at random (stochastic)",
+     .words = kLayers,
+     .member = member<&DirectionsOptions::layers>},
+    {.name = "lookups",
+     .help = "Side of the square of pixels read among stochastic layers",
+     .words = kLookups,
+     .member = member<&DirectionsOptions::lookups>,
+     .with = "layers",
+     .with_value = "stochastic"},
+    {.name = "slabs",
+     .help = "Slabs that each direction is cut into, so that fewer surfaces compete for a pixel of "
+             "stochastic layers; auto: as many as the overdraw requires",
+     .words = kAutomatic,
+     .lowest = 1,
+     .highest = kMaxSlabs,
+     .member = member<&DirectionsOptions::slabs>,
+     .with = "layers",
+     .with_value = "stochastic"},
+    {.name = "map-side",
+     .help = "Side of a direction's maps in pixels; auto: as suits the lumels",
+     .words = kAutomatic,
+     .lowest = kMinMapSide,
+     .highest = kMaxMapSide,
+     .member = member<&DirectionsOptions::map_side>},
+};
+
+}  // namespace lumel

@@ -1,0 +1,17 @@
+#pragma once
+// The options of gathering by hemicubes as a table.
+
+#include "methods/gather/gather.shared.h"
+#include "methods/gather/options.h"
+#include "solve/shooting/common_options.h"
+
+namespace lumel {
+
+inline constexpr OptionInfo kGatherOptions[] = {
+    seed_option(member<&GatherOptions::seed>),
+    sampling_option(member<&GatherOptions::rule>),
+    batch_option(member<&GatherOptions::batch>, kMaxHemicubes),
+    hemicube_option(member<&GatherOptions::hemicube>),
+};
+
+}  // namespace lumel

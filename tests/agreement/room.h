@@ -1,0 +1,57 @@
+#pragma once
+// The room that every engine lights, edited as the rows of the table need it, and its reference.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "../support/temporary_folder.h"
+#include "atlas/prepare/prepare.h"
+
+namespace lumel::test {
+
+inline constexpr int kSide = 48;         ///< of the atlas [texels]
+inline constexpr float kDimmed = 0.25f;  ///< factor to the light of the ceiling
+inline constexpr const char *kBlock = "short block", *kLight = "light";
+inline const glm::vec3 kMove(0.06f, 0.0f, -0.03f);  ///< of the block [m]
+
+/// The Cornell box with a lamp in it beside its shining ceiling: as it is; with a block elsewhere;
+/// with the ceiling's light dimmed.
+enum class Room { given, moved, dimmed };
+
+/// The rooms as files of a folder.
+class RoomFiles {
+public:
+    RoomFiles();
+    const std::string& path(Room room) const { return paths_.at(room); }
+
+private:
+    TemporaryFolder folder_;
+    std::map<Room, std::string> paths_;
+};
+
+/// Light that an engine found, with its lumels.
+struct Found {
+    Lumels lumels;
+    std::vector<glm::vec3> irradiance;  ///< [N] [lx]
+};
+
+/// Parts of the mean light; the reference's own noise is not in them.
+struct Deviation {
+    double rmse = 0.0, bias = 0.0;
+};
+
+/// A room path-traced in two independent halves.
+class Reference {
+public:
+    explicit Reference(const std::string& scene_path);
+    /// Throws std::runtime_error if the lumels are not those of the reference.
+    Deviation of(const Found& found) const;
+
+private:
+    Prepared world_;
+    std::vector<glm::vec3> halves_[2];
+    std::map<std::uint64_t, std::size_t> lumel_at_;  ///< by texel and side
+};
+
+}  // namespace lumel::test

@@ -1,0 +1,289 @@
+// One room, lit by every engine and way in, against one reference: a row each, with its own bound.
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <optional>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "base/images/image_files.h"
+#include "gpu/device.h"
+#include "jobs/bake/bake.h"
+#include "jobs/edit/finished_bake.h"
+#include "jobs/relight/relight.h"
+#include "jobs/update/update.h"
+#include "links/live/live_links.h"
+#include "methods/methods.h"
+#include "methods/redistribution/live_scene.h"
+#include "room.h"
+
+namespace lumel::test {
+namespace {
+
+constexpr std::uint32_t kKeptRays = 64;
+
+struct Row {
+    const char* name;
+    const char* what;  ///< the engine, and the way in
+    Room room;         ///< that the light is of
+    Deviation bound;
+    std::function<Found(const RoomFiles&)> light;
+    bool queries = false;  ///< needs ray queries of the device
+};
+
+Found light_of(const FinishedBake& bake)
+{
+    return {bake.prepared.lumels, bake.irradiance};
+}
+
+BakeOptions bake_options(const MethodOptions& method)
+{
+    BakeOptions options;
+    options.atlas.size = kSide;
+    options.preview_width = 0;
+    options.solver.method = method;
+    return options;
+}
+
+BakeOptions kept_links()
+{
+    BakeOptions options = bake_options(LinksOptions{});
+    options.keep_links = kKeptRays;
+    return options;
+}
+
+/// lumel bake
+auto baked(BakeOptions options)
+{
+    return [options](const RoomFiles& files) {
+        const TemporaryFolder folder;
+        bake(files.path(Room::given), folder / "out", options);
+        return light_of(FinishedBake(folder / "out"));
+    };
+}
+
+auto baked(Rays rays)
+{
+    return baked(bake_options(LinksOptions{.rays = rays}));
+}
+
+auto baked(const char* method)
+{
+    return baked(bake_options(method_of(method).defaults()));
+}
+
+/// lumel update, of a bake of the room as it was given
+auto updated(const BakeOptions& options)
+{
+    return [options](const RoomFiles& files) {
+        const TemporaryFolder folder;
+        bake(files.path(Room::given), folder / "out", options);
+        update(folder / "out", files.path(Room::moved), {.preview_width = 0});
+        return light_of(FinishedBake(folder / "out"));
+    };
+}
+
+/// lumel relight: the map of a state, by the lumels of the bake
+auto relit(const BakeOptions& options)
+{
+    return [options](const RoomFiles& files) {
+        const TemporaryFolder folder;
+        const std::string out = folder / "out", states = folder / "states.json";
+        bake(files.path(Room::given), out, options);
+        std::ofstream(states) << fmt::format(
+            R"({{"states": [{{"name": "dimmed", "lights": {{"{}": {}}}}}]}})", kLight, kDimmed);
+        relight(out, states, {});
+        const Image map = read_exr(out + "/states/dimmed.exr");
+        Found found{FinishedBake(out).prepared.lumels, {}};
+        for (const Lumel& lumel : found.lumels.lumels) {
+            const int side = found.lumels.width, texel = int(lumel.texel);
+            const float* rgb = map.at(texel % side, texel / side);
+            found.irradiance.emplace_back(rgb[0], rgb[1], rgb[2]);
+        }
+        return found;
+    };
+}
+
+/// LiveLinks, as lumel view shows them
+auto live_links(const std::function<void(LiveLinks&)>& edit)
+{
+    return [edit](const RoomFiles& files) {
+        LiveLinks live(lay_out(read_gltf(files.path(Room::given)), {.size = kSide}, {kBlock}),
+                       {.rays = kKeptRays, .things = {kBlock}});
+        live.settle();
+        edit(live);
+        live.settle();
+        return Found{live.lumels(), live.shown()};
+    };
+}
+
+void move_block(LiveLinks& live, float part)
+{
+    live.move(kBlock, glm::translate(glm::mat4(1.0f), part * kMove));
+    live.settle();
+}
+
+/// LiveScene, as lumel play --solver progressive has it
+auto live_scene(Redistribution redistribution, const std::function<void(LiveScene&)>& edit)
+{
+    return [redistribution, edit](const RoomFiles& files) {
+        const gpu::Device device;
+        const Scene scene = read_gltf(files.path(Room::given));
+        LiveOptions options;
+        options.atlas.size = kSide;
+        options.redistribution = redistribution;
+        options.movers = {find_instance(scene, kBlock)};
+        LiveScene live(device, scene, options);
+        live.settle();
+        edit(live);
+        live.settle();
+        Found found{live.lumels(), live.irradiance()};
+        EXPECT_EQ(device.validation_messages(), "");
+        return found;
+    };
+}
+
+void move_block(LiveScene& live, float part)
+{
+    const std::uint32_t block = find_instance(live.scene(), kBlock);
+    live.move(block, glm::translate(glm::mat4(1.0f), part * kMove));
+    live.settle();
+}
+
+template <class Live>
+void nothing(Live&)
+{
+}
+
+template <class Live>
+void move(Live& live)
+{
+    move_block(live, 1.0f);
+}
+
+template <class Live>
+void there_and_back(Live& live)
+{
+    move_block(live, 1.0f);
+    move_block(live, 0.0f);
+}
+
+std::vector<Row> rows()
+{
+    // A bake stops at an estimated error of 2 %.
+    const Deviation baked_error{0.02, 0.005};
+    return {
+        {"bake_by_links", "bake: links, rays by the host", Room::given, baked_error,
+         baked(Rays::host)},
+        {"bake_by_queries", "bake: links, rays by queries of the device", Room::given, baked_error,
+         baked(Rays::query), true},
+        {"bake_by_drawings", "bake: links, rays drawn", Room::given, baked_error,
+         baked(Rays::raster)},
+        {"bake_by_kept_links", "bake: links kept, 64 of a lumel", Room::given, baked_error,
+         baked(kept_links())},
+        {"bake_by_stochastic", "bake: stochastic shooting", Room::given, baked_error,
+         baked("stochastic")},
+        {"bake_by_glossy", "bake: glossy radiosity", Room::given, baked_error, baked("glossy")},
+        {"bake_by_directions", "bake: global directions", Room::given, baked_error,
+         baked("directions")},
+        {"bake_by_progressive", "bake: progressive refinement", Room::given, baked_error,
+         baked("progressive")},
+        {"bake_by_gather", "bake: gathering", Room::given, baked_error, baked("gather")},
+        {"bake_by_matrix", "bake: transport matrix", Room::given, baked_error, baked("matrix")},
+        {"live_links", "live links", Room::given, baked_error, live_links(nothing<LiveLinks>)},
+        {"live_links_there_and_back", "live links, a block moved there and back", Room::given,
+         baked_error, live_links(there_and_back<LiveLinks>)},
+        {"live_links_moved", "live links, a block moved", Room::moved, baked_error,
+         live_links(move<LiveLinks>)},
+        {"live_links_dimmed", "live links, a light dimmed", Room::dimmed, baked_error,
+         live_links([](LiveLinks& live) { live.set_lamp(kLight, glm::vec3(kDimmed)); })},
+        {"live_scene", "live progressive refinement", Room::given, baked_error,
+         live_scene(Redistribution::incremental, nothing<LiveScene>)},
+        {"live_scene_there_and_back", "the same, a block moved there and back", Room::given,
+         baked_error, live_scene(Redistribution::incremental, there_and_back<LiveScene>)},
+        {"live_scene_moved", "the same, a block moved", Room::moved, baked_error,
+         live_scene(Redistribution::incremental, move<LiveScene>)},
+        {"live_scene_moved_across", "the same, by cross redistribution", Room::moved, baked_error,
+         live_scene(Redistribution::cross, move<LiveScene>)},
+        {"live_scene_dimmed", "the same, a light dimmed", Room::dimmed, baked_error,
+         live_scene(Redistribution::incremental,
+                    [](LiveScene& live) {
+                        live.set_emission(find_instance(live.scene(), kLight), glm::vec3(kDimmed));
+                    })},
+        {"update", "update of a bake by links, a block moved", Room::moved, baked_error,
+         updated(bake_options(LinksOptions{}))},
+        {"update_over_kept_links", "update over kept links, a block moved", Room::moved,
+         baked_error, updated(kept_links())},
+        {"relight_over_kept_links", "relight over kept links, a light dimmed", Room::dimmed,
+         baked_error, relit(kept_links())},
+        {"relight_by_matrix", "relight by the matrix, a light dimmed", Room::dimmed, baked_error,
+         relit(bake_options(method_of("matrix").defaults()))},
+    };
+}
+
+class Agreement : public testing::TestWithParam<Row> {
+protected:
+    void SetUp() override
+    {
+        if (GetParam().queries && !gpu::Device().can_query_rays())
+            GTEST_SKIP() << gpu::Device().info().name
+                         << " has no ray queries; tools/newer_mesa runs a program on one that has";
+    }
+    static void TearDownTestSuite()
+    {
+        std::cout << fmt::format("{:48} {:>7} {:>7} {:>7} {:>7} {:>6}\n", "", "RMSE %", "bound",
+                                 "bias %", "bound", "s")
+                  << table();
+    }
+
+    static const RoomFiles& files()
+    {
+        static const RoomFiles files;
+        return files;
+    }
+    static const Reference& reference(Room room)
+    {
+        static std::map<Room, Reference> made;
+        return made.try_emplace(room, files().path(room)).first->second;
+    }
+    static std::string& table()
+    {
+        static std::string lines;
+        return lines;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Table, Agreement, testing::ValuesIn(rows()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST_P(Agreement, WithThePathTracer)
+{
+    const Row& row = GetParam();
+    const auto start = std::chrono::steady_clock::now();
+    const Found found = row.light(files());
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const Deviation error = reference(row.room).of(found);
+    table() +=
+        fmt::format("{:48} {:7.2f} {:7.2f} {:7.2f} {:7.2f} {:6.1f}\n", row.what, 100.0 * error.rmse,
+                    100.0 * row.bound.rmse, 100.0 * error.bias, 100.0 * row.bound.bias, seconds);
+    EXPECT_LE(error.rmse, row.bound.rmse);
+    EXPECT_LE(std::abs(error.bias), row.bound.bias);
+}
+
+/// The edits of the table are worth a row: the light that was given is far from theirs.
+TEST(AgreementRooms, DifferByMoreThanAnyBound)
+{
+    const RoomFiles files;
+    const Found given = baked(Rays::host)(files);
+    for (const Room room : {Room::moved, Room::dimmed})
+        EXPECT_GT(Reference(files.path(room)).of(given).rmse, 0.1);
+}
+
+}  // namespace
+}  // namespace lumel::test

@@ -1,0 +1,156 @@
+// Samples of sources against what the sources send by closed forms.
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "../support/lamps.h"
+#include "../support/quadrature.h"
+#include "lit_point.h"
+#include "truth/closed_forms.h"
+
+namespace lumel {
+namespace {
+
+using support::mean_of_samples;
+using support::upward;
+
+constexpr float kExtent = 2.0f;  // of the scenes [m]
+
+struct Place {
+    Span x, y;
+    double height;
+};
+
+/// Beside, above, and so near that triangles are sampled by solid angle.
+constexpr Place kPlaces[] = {{{-0.5, 0.5}, {-0.5, 0.5}, 1.0},
+                             {{0.3, 1.1}, {0.2, 0.9}, 0.5},
+                             {{-1.0, 1.0}, {-0.7, 1.3}, 0.1}};
+
+/// A plate of side² pieces in one mesh.
+Scene plate(const Place& place, int side, const glm::vec3& emission)
+{
+    Scene scene;
+    const support::Quad whole = support::plate_above({float(place.x.low), float(place.y.low)},
+                                                     {float(place.x.high), float(place.y.high)},
+                                                     float(place.height), emission);
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+    for (int k = 0; k < side * side; ++k) {
+        const glm::vec3 u = whole.edge_u / float(side), v = whole.edge_v / float(side),
+                        a = whole.corner + float(k % side) * u + float(k / side) * v;
+        const auto first = std::uint32_t(positions.size());
+        for (const glm::vec3& corner : {a, a + u, a + u + v, a + v})
+            positions.push_back(corner);
+        for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
+            indices.push_back(first + corner);
+    }
+    Material material;
+    material.emitted = emission / support::kPi;
+    support::add_mesh(scene, positions, indices, material);
+    return scene;
+}
+
+TEST(LightSources, AUniformPlateSendsItsEmissionTimesItsFormFactor)
+{
+    const glm::vec3 emission(3.0f, 2.0f, 1.0f);
+    for (const Place& place : kPlaces)
+        for (const int side : {1, 2, 5}) {  // form factors of few triangles, points on many
+            const Scene scene = plate(place, side, emission);
+            const Surfaces surfaces(scene);
+            const LightSources sources(scene, surfaces, kExtent);
+            ASSERT_EQ(sources.count(), 1u);
+            const double factor = point_to_parallel_rectangle(place.x, place.y, place.height);
+            // Close to many triangles samples scatter: to 0.4 % in the mean of 512².
+            const glm::dvec3 mean = mean_of_samples(sources, 0, upward(), side == 5 ? 512 : 128);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(mean[c] / (double(emission[c]) * factor), 1.0, 0.01)
+                    << side << " at " << place.height;
+            if (const auto open = sources.sample(0, upward(), glm::vec2(0.5f)).open)
+                EXPECT_NEAR(double(open->r) / (double(emission.r) * factor), 1.0, 1e-4);
+            else
+                EXPECT_EQ(side, 5);
+        }
+}
+
+TEST(LightSources, APlateThatTurnsItsBackSendsNothing)
+{
+    Scene scene;
+    support::Quad plate = support::plate_above({-1, -1}, {1, 1}, 1.0f, glm::vec3(1.0f));
+    std::swap(plate.edge_u, plate.edge_v);
+    support::add_quad(scene, plate);
+    const Surfaces surfaces(scene);
+    const LightSources sources(scene, surfaces, kExtent);
+    EXPECT_EQ(mean_of_samples(sources, 0, upward()), glm::dvec3(0.0));
+}
+
+TEST(LightSources, LampsSendTheirIntensityByTheSquareOfTheDistanceAndTheCosine)
+{
+    const glm::vec3 position(0.6f, 0.0f, 0.8f);
+    for (const float radius : {0.0f, 0.2f}) {
+        Scene scene;
+        scene.lights = {support::make_lamp(PunctualLight::Kind::point, 5.0f, 2.0f * position)};
+        scene.lights[0].radius = radius;
+        const Surfaces surfaces(scene);
+        const LightSources sources(scene, surfaces, kExtent);
+        ASSERT_EQ(sources.count(), 1u);
+        EXPECT_EQ(sources.is_small(0), radius == 0.0f);
+        EXPECT_NEAR(mean_of_samples(sources, 0, upward()).g, 5.0 * 0.8 / 4.0, 1e-3) << radius;
+    }
+}
+
+TEST(LightSources, ASunSendsItsLuxTimesTheCosineWhateverItsAngle)
+{
+    for (const float angle : {0.0f, 0.005f, 0.3f}) {
+        Scene scene;
+        scene.lights = {
+            support::make_lamp(PunctualLight::Kind::directional, 100.0f, {}, {-0.6f, 0.0f, -0.8f})};
+        scene.lights[0].angle = angle;
+        const Surfaces surfaces(scene);
+        const LightSources sources(scene, surfaces, kExtent);
+        EXPECT_NEAR(mean_of_samples(sources, 0, upward()).g, 80.0, 0.05) << angle;
+    }
+}
+
+/// Even, but for one bright texel in sixteen times thirty-two.
+Sky sky_with_a_window(const glm::vec3& even, const glm::vec3& bright, int row, int column)
+{
+    constexpr int kWidth = 32, kHeight = 16;
+    Sky sky{.width = kWidth, .height = kHeight, .radiance = {}};
+    sky.radiance.assign(std::size_t(kWidth * kHeight), even);
+    sky.radiance[std::size_t(row * kWidth + column)] = bright;
+    return sky;
+}
+
+TEST(LightSources, ASkysBrightPartsAndTheRestAddUpToIt)
+{
+    for (int row = 0; row < 16; row += 5) {
+        Scene scene;
+        scene.sky = sky_with_a_window(glm::vec3(1.0f), glm::vec3(500.0f, 400.0f, 300.0f), row, 7);
+        const Surfaces surfaces(scene);
+        const LightSources sources(scene, surfaces, kExtent);
+        ASSERT_EQ(sources.count(), 1u);
+        const RayOrigin start = upward();
+        // Both sums by the same directions: about +z, whose share of the texel may be any.
+        const double whole = support::over_hemisphere([&](const glm::vec3& direction) {
+            return sky_radiance(scene.sky, direction).g * direction.z;
+        });
+        const double dim = support::over_hemisphere(
+            [&](const glm::vec3& direction) { return sources.dim_sky(direction).g * direction.z; });
+        EXPECT_NEAR((mean_of_samples(sources, 0, start, 512).g + dim) / whole, 1.0, 0.01) << row;
+    }
+}
+
+TEST(LightSources, AnEvenSkyHasNoBrightPart)
+{
+    Scene scene;
+    scene.sky = support::even_sky(glm::vec3(2.0f));
+    const Surfaces surfaces(scene);
+    const LightSources sources(scene, surfaces, kExtent);
+    EXPECT_EQ(sources.count(), 0u);
+    EXPECT_EQ(sources.dim_sky({0.0f, 0.6f, 0.8f}), glm::vec3(2.0f));
+}
+
+}  // namespace
+}  // namespace lumel
