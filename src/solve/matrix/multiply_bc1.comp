@@ -26,7 +26,8 @@ uint plane_of(uint state, uint channel)
 vec3 entry(uint row, uint column)
 {
     const vec3 code = texelFetch(codes, ivec2(column, row), 0).rgb * kLogCodes;
-    return mix(exp2(code * p.log_step + p.log_factor), vec3(0.0), lessThan(code, vec3(kMinLogCode)));
+    const vec3 value = exp2(code * p.log_step + p.log_factor);
+    return mix(value, vec3(0.0), lessThan(code, vec3(kMinLogCode)));
 }
 
 void main()
