@@ -289,7 +289,7 @@ TEST(Senders, AddUpToTheLightOfALumel)
         const Senders senders = find_senders(world.scene, world.rays, world.atlas, world.lumels,
                                              irradiance, i, {.rays = 4096});
         glm::vec3 sum(0.0f);
-        for (const Sender& sender : senders.list) {
+        for (const Contributor& sender : senders.list) {
             sum += sender.light;
             sky = sky || sender.kind == Sender::Kind::sky;
             lamp = lamp || (sender.kind == Sender::Kind::lamp &&
