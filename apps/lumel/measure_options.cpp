@@ -64,15 +64,15 @@ void add_places(Command& command, MeasureOptions& options)
          {.names = "--spacing",
           .type = "F",
           .help = "Metres from point to point of the plane",
-          .default_value = "1/20 of its longer side",
           .target = &options.spacing,
+          .default_value = "1/20 of its longer side",
           .check = positive(),
           .needs = "--plane"},
          {.names = "--bounds",
           .type = "X0,Z0,X1,Z1",
           .help = "Corners of the plane in metres",
-          .default_value = "the scene's",
           .target = [&options](const std::string& text) { options.bounds = bounds_of(text); },
+          .default_value = "the scene's",
           .needs = "--plane"},
          {"--samples", "N", "Rays of a point over its hemisphere, and as many towards lights",
           &options.samples, text_of(options.samples), whole(kMinSamples, kMaxSamples)}});
@@ -93,8 +93,8 @@ void add_files(Command& command, MeasureOptions& options)
          {.names = "--width",
           .type = "N",
           .help = "Width of that picture in pixels",
-          .default_value = text_of(options.width),
           .target = &options.width,
+          .default_value = text_of(options.width),
           .check = whole(1, kLargestAtlas),
           .needs = "--preview"}});
 }

@@ -61,15 +61,13 @@ void add_follow_options(Command& command, PlayOptions& options)
           "Milliseconds for the light of each frame; where they are not enough it lags "
           "behind",
           &options.budget_ms, "as needed", positive()},
-         {.names = "--residual",
-          .type = "PERCENT",
-          .help = "Light left to be shot, or to bounce, as a part of all, at which a solution is "
-                  "at rest; with --solver directions, what is left of the light before a change",
-          .default_value =
-              fmt::format("{:g}, {:g} with directions, {:g} with links", 100.0 * options.residual,
-                          100.0 * LeakyOptions{}.residual, 100.0 * LiveLinksOptions{}.residual),
-          .target = [&options](double percent) { options.residual = percent / 100.0; },
-          .check = positive()}});
+         {"--residual", "PERCENT",
+          "Light left to be shot, or to bounce, as a part of all, at which a solution is "
+          "at rest; with --solver directions, what is left of the light before a change",
+          [&options](double percent) { options.residual = percent / 100.0; },
+          fmt::format("{:g}, {:g} with directions, {:g} with links", 100.0 * options.residual,
+                      100.0 * LeakyOptions{}.residual, 100.0 * LiveLinksOptions{}.residual),
+          positive()}});
 }
 
 void add_film_options(Command& command, PlayOptions& options)

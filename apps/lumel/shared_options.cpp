@@ -165,25 +165,22 @@ void add_talk_options(Command& command, Talk& talk)
 
 void add_stop_options(Command& command, SolverOptions& solver)
 {
-    command.add(kStopGroup,
-                {{"--shots", "N", "Stop after this many shooters; of links: rays of each lumel",
-                  &solver.max_shots, "", whole(1, kMaxShots)},
-                 {"--time", "SECONDS",
-                  "Stop solving when this time has passed since the start of the command; the "
-                  "results are then written",
-                  &solver.max_seconds, "", positive()},
-                 {.names = "--error",
-                  .type = "PERCENT",
-                  .help = "Stop at this estimated error of the whole map",
-                  .default_value =
-                      text_of(100.0 * solver.target_error) + ", or none with --shots or --time",
-                  .target = [&solver](double percent) { solver.target_error = percent / 100.0; },
-                  .check = positive()},
-                 {"--dark-error", "PERCENT",
-                  "Stop at this estimated error of the lumels below a third of the mean, as a part "
-                  "of their own light (only links)",
-                  [&solver](double percent) { solver.target_dark_error = percent / 100.0; }, "none",
-                  positive()}});
+    command.add(
+        kStopGroup,
+        {{"--shots", "N", "Stop after this many shooters; of links: rays of each lumel",
+          &solver.max_shots, "", whole(1, kMaxShots)},
+         {"--time", "SECONDS",
+          "Stop solving when this time has passed since the start of the command; the "
+          "results are then written",
+          &solver.max_seconds, "", positive()},
+         {"--error", "PERCENT", "Stop at this estimated error of the whole map",
+          [&solver](double percent) { solver.target_error = percent / 100.0; },
+          text_of(100.0 * solver.target_error) + ", or none with --shots or --time", positive()},
+         {"--dark-error", "PERCENT",
+          "Stop at this estimated error of the lumels below a third of the mean, as a part "
+          "of their own light (only links)",
+          [&solver](double percent) { solver.target_dark_error = percent / 100.0; }, "none",
+          positive()}});
 }
 
 void drop_default_error(const Command& command, SolverOptions& solver)
@@ -214,10 +211,12 @@ void add_scene_file_options(Command& command, BakeOptions& options)
 {
     command.add(kLightmapGroup,
                 {choice(options.lightmap_format, kLightmapFormats,
-                        {"--lightmap-format", "",
+                        {"--lightmap-format",
+                         "",
                          "Lightmap in scene.glb: half floats or shared exponents in KTX2, with an "
                          "8-bit PNG for loaders that do not read it; the PNG alone; or none",
-                         "", "ktx2"}),
+                         {},
+                         "ktx2"}),
                  {"--baked-size", "N",
                   "Largest side of the texture of scene-baked.glb in texels: it is as dense as the "
                   "textures of the scene where that fits, and never smaller than the lightmap",
@@ -233,7 +232,7 @@ void add_only_option(Command& command, Parts& parts)
 {
     command.add(kLightmapGroup,
                 {choice(parts, kParts,
-                        {"--only", "", "Bake only direct or only indirect light", "", "both"})});
+                        {"--only", "", "Bake only direct or only indirect light", {}, "both"})});
 }
 
 void add_directional_option(Command& command, Directional& directional)

@@ -40,8 +40,8 @@ void add_script_options(Command& command, ViewArguments& view)
          {.names = "--movable",
           .type = "NAME",
           .help = "Name of what may be moved, turned and deleted; may be repeated",
-          .default_value = "what is small beside the scene",
           .target = &view.options.movable,
+          .default_value = "what is small beside the scene",
           .repeatable = true},
          {"--budget", "MS", "Milliseconds for the light of each frame", &view.options.budget_ms,
           text_of(view.options.budget_ms), positive()}});
@@ -51,14 +51,12 @@ void add_light_of_session(Command& command, SessionOptions& options)
 {
     command.add(
         kSessionGroup,
-        {{.names = "--solver",
-          .type = names_of_methods(),
-          .help = "Show the light of this method first, before the first edit; see lumel methods",
-          .default_value = "none: links that are kept",
-          .target =
-              [&options](const std::string& id) {
-                  options.solver = SolverOptions{.method = method_of(id).defaults()};
-              }},
+        {{"--solver", names_of_methods(),
+          "Show the light of this method first, before the first edit; see lumel methods",
+          [&options](const std::string& id) {
+              options.solver = SolverOptions{.method = method_of(id).defaults()};
+          },
+          "none: links that are kept"},
          {"--links", "N", "Rays that each lumel keeps: 4, 16, 64 or 256", &options.link_rays,
           text_of(options.link_rays), link_rays()},
          {"--residual", "PERCENT",
@@ -74,8 +72,7 @@ void add_light_of_session(Command& command, SessionOptions& options)
 
 Command view_command()
 {
-    const auto given = std::make_shared<ViewArguments>();
-    given->run.folder = ".";
+    const auto given = std::make_shared<ViewArguments>(ViewArguments{.run = {.folder = "."}});
     SessionOptions& options = given->options;
     Command command{.name = "view",
                     .help = "Walk through a lit scene while things are moved and lamps dimmed",

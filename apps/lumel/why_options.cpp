@@ -15,25 +15,22 @@ void add_place_options(Command& command, WhyOptions& options)
     const auto set_texel = [&options](std::array<double, 2> at) {
         options.texel = glm::ivec2(int(at[0]), int(at[1]));
     };
-    command.add(
-        "Point of the lightmap",
-        {{.names = "--lumel",
-          .type = "U,V",
-          .help = "Point of the lightmap in TEXCOORD_1: 0,0 is its top left corner, 1,1 the bottom "
+    command.add("Point of the lightmap",
+                {{"--lumel", "U,V",
+                  "Point of the lightmap in TEXCOORD_1: 0,0 is its top left corner, 1,1 the bottom "
                   "right one",
-          .target =
-              [&options](std::array<double, 2> uv) {
-                  options.place = {uv[0], uv[1]};
-              },
-          .check = between(0.0, 1.0)},
-         {.names = "--texel",
-          .type = "X,Y",
-          .help = "The same as column and row of a texel, from 0,0",
-          .target = set_texel,
-          .check = whole(0, kLargestAtlas - 1),
-          .excludes = "--lumel"},
-         {"--page", "N", "Of several pages of the lightmap the one that is meant", &options.page,
-          text_of(options.page), whole(0, kMaxPages - 1)}});
+                  [&options](std::array<double, 2> uv) {
+                      options.place = {uv[0], uv[1]};
+                  },
+                  "", between(0.0, 1.0)},
+                 {.names = "--texel",
+                  .type = "X,Y",
+                  .help = "The same as column and row of a texel, from 0,0",
+                  .target = set_texel,
+                  .check = whole(0, kLargestAtlas - 1),
+                  .excludes = "--lumel"},
+                 {"--page", "N", "Of several pages of the lightmap the one that is meant",
+                  &options.page, text_of(options.page), whole(0, kMaxPages - 1)}});
 }
 
 }  // namespace
