@@ -1,7 +1,7 @@
-# What Lumel is built with, found or asked for in one sentence.
+# Finds packages. On failure, one sentence names the package, the version found and the versions that work.
 
 # lumel_find(<Debian package> <name> [<least version> [<below version>]]): find_package. tools/setup.sh reads these
-# lines too, to tell which package of a distribution is too old or too new.
+# lines too, to check the versions that apt offers.
 macro(lumel_find package name)
     find_package(${name} QUIET)
     set(lumel_least "${ARGV2}")

@@ -69,7 +69,7 @@ missing_by_probe() {
     g++ -x c++ -E -P - <<<"$source"
 }
 
-# unfit <package …>: a line for each that apt cannot get, or not in a version that CMakeLists.txt asks for.
+# unfit <package …>: prints a line for each package that apt lacks or whose version CMakeLists.txt refuses.
 unfit() {
     local package name least below version
     local -A offered=()
@@ -114,7 +114,7 @@ need_packages() {
     if [[ -n $(unfit "$@") ]]; then
         quietly "$log" "apt-get update" $update || exit 1
         unfit=$(unfit "$@")
-        [[ -z $unfit ]] || die "this release's packages do not fit: ${unfit//$'\n'/; }."
+        [[ -z $unfit ]] || die "the packages of this release do not fit: ${unfit//$'\n'/; }."
     fi
     if ! $install >"$log" 2>&1 </dev/null; then
         quietly "$log" "apt-get update" $update || exit 1
@@ -140,7 +140,7 @@ need_configured() {
         $(<"$folder/configured") != "$wanted" ]] || return 0
     progress "configuring"
     mkdir -p "$folder"
-    # Another path, or presets that may name another compiler: nothing that CMake has cached holds.
+    # The cache is discarded after a move, and when the presets changed: they may name another compiler.
     [[ ! -f $folder/configured || ($(head -n 1 "$folder/configured") == "$root" &&
         $folder/configured -nt $root/CMakePresets.json) ]] || fresh=--fresh
     cd "$root"

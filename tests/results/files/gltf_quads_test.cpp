@@ -197,7 +197,8 @@ TEST_F(TwoQuads, WhereBothTexcoordsAreReadWhatIsWrittenReadsTheSameAndIsWrittenA
     write_scene_glb(folder_ / "scene.glb", before, atlas, test::any_map(atlas));
     const Scene after = read_gltf(folder_ / "scene.glb");
     for (const Surface& surface : atlas.surfaces) {
-        const Primitive &old = primitive_of(before, surface), &now = primitive_of(after, surface);
+        const Primitive& old = test::primitive_of(before, surface);
+        const Primitive& now = test::primitive_of(after, surface);
         for (std::size_t i = 0; i < surface.indices.size(); ++i) {
             const std::uint32_t source = surface.source_vertex[surface.indices[i]];
             EXPECT_EQ(now.texcoords[0][now.indices[i]], old.texcoords[0][source]);

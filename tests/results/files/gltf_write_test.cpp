@@ -44,12 +44,6 @@ std::optional<Scene> try_read(const std::string& path)
     }
 }
 
-const Primitive& primitive_of(const Scene& scene, const Surface& surface)
-{
-    const Instance& instance = scene.instances.at(surface.instance);
-    return scene.meshes.at(std::size_t(instance.mesh)).primitives.at(surface.primitive);
-}
-
 // Colour, emission and opacity at a corner, read as a renderer would.
 MaterialSample look(const Scene& scene, const Primitive& primitive, std::uint32_t vertex)
 {
@@ -72,8 +66,8 @@ bool reads_texcoord_1(const Scene& scene, const Primitive& primitive)
 void expect_same_triangles(const Scene& before, const Scene& after, const Atlas& atlas,
                            const Surface& surface)
 {
-    const Primitive& old_list = primitive_of(before, surface);
-    const Primitive& new_list = primitive_of(after, surface);
+    const Primitive& old_list = test::primitive_of(before, surface);
+    const Primitive& new_list = test::primitive_of(after, surface);
     ASSERT_EQ(new_list.indices.size(), surface.indices.size());
     ASSERT_EQ(new_list.texcoords[1].size(), new_list.positions.size());
     for (std::size_t i = 0; i < surface.indices.size(); ++i) {
@@ -212,8 +206,8 @@ TEST(GltfWrite, MaterialsLookAsBeforeInSceneGlb)
         write_scene_glb(folder / "scene.glb", *scene, atlas, test::any_map(atlas));
         const Scene after = read_gltf(folder / "scene.glb");
         for (const Surface& surface : atlas.surfaces) {
-            const Primitive& old_list = primitive_of(*scene, surface);
-            const Primitive& new_list = primitive_of(after, surface);
+            const Primitive& old_list = test::primitive_of(*scene, surface);
+            const Primitive& new_list = test::primitive_of(after, surface);
             for (std::size_t i = 0; i < surface.indices.size(); i += 7) {
                 const std::uint32_t vertex = surface.source_vertex[surface.indices[i]];
                 const MaterialSample a = look(*scene, old_list, vertex);

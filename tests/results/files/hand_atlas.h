@@ -36,6 +36,13 @@ inline Atlas corner_atlas(const Scene& scene, int side = 64)
     return atlas;
 }
 
+/// The primitive that a surface of the atlas was made from.
+inline const Primitive& primitive_of(const Scene& scene, const Surface& surface)
+{
+    const Instance& instance = scene.instances.at(surface.instance);
+    return scene.meshes.at(std::size_t(instance.mesh)).primitives.at(surface.primitive);
+}
+
 /// A map that is covered everywhere and differs from texel to texel.
 inline Image any_map(const Atlas& atlas)
 {
