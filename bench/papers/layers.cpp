@@ -12,6 +12,8 @@
 #include "bench/papers/iteration_cost.h"
 #include "bench/stopwatch.h"
 #include "methods/directions/slabs.h"
+#include "raster/parallel/illumination_maps.h"
+#include "raster/world/tiles.h"
 #include "rays/paths/samples.h"
 #include "scene/sky/light_options.h"
 #include "solve/solver/solver.h"
