@@ -71,11 +71,8 @@ void add_places(Command& command, MeasureOptions& options)
          {.names = "--bounds",
           .type = "X0,Z0,X1,Z1",
           .help = "Corners of the plane in metres",
-          .target =
-              [&options](const std::string& text) {
-                  options.bounds = bounds_of(text);
-                  , .default_value = "the scene's"
-              },
+          .target = [&options](const std::string& text) { options.bounds = bounds_of(text); },
+          .default_value = "the scene's",
           .needs = "--plane"},
          {"--samples", "N", "Hemisphere rays per point; as many again go to light sources",
           &options.samples, text_of(options.samples), whole(kMinSamples, kMaxSamples)}});

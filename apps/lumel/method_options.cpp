@@ -39,10 +39,7 @@ bool is_omitted(const std::vector<OmittedOption>& omitted, std::string_view opti
 /// "links|stochastic|…"
 std::string listed(const std::vector<std::string_view>& ids)
 {
-    std::string list;
-    for (const std::string_view id : ids)
-        list += (list.empty() ? "" : "|") + std::string(id);
-    return list;
+    return fmt::to_string(fmt::join(ids, "|"));
 }
 
 std::vector<std::string_view> all_methods()
@@ -57,7 +54,7 @@ std::vector<std::string_view> all_methods()
 Check one_of(const std::vector<std::string_view>& ids)
 {
     return [ids](const std::string& id) -> std::string {
-        return among(ids, id) ? "" : fmt::format("{} not in {{{}}}", id, fmt::join(ids, ","));
+        return among(ids, id) ? "" : id + " not in {" + fmt::to_string(fmt::join(ids, ",")) + "}";
     };
 }
 

@@ -59,18 +59,13 @@ void add_follow_options(Command& command, PlayOptions& options)
          {"--budget", "MS",
           "Milliseconds per frame for updating the light; if they are not enough, it lags behind",
           &options.budget_ms, "unlimited", positive()},
-         {.names = "--residual",
-          .type = "PERCENT",
-          .help = "Stop when unshot or unreflected light falls below this share; with --solver "
-                  "directions, when this share of the light before a change is left",
-          .target =
-              [&options](double percent) {
-                  options.residual = percent / 100.0;
-                  , .default_value = fmt::format(
-                        "{:g}, {:g} with directions, {:g} with links", 100.0 * options.residual,
-                        100.0 * LeakyOptions{}.residual, 100.0 * LiveLinksOptions{}.residual)
-              },
-          .check = positive()}});
+         {"--residual", "PERCENT",
+          "Stop when unshot or unreflected light falls below this share; with --solver directions, "
+          "when this share of the light before a change is left",
+          [&options](double percent) { options.residual = percent / 100.0; },
+          fmt::format("{:g}, {:g} with directions, {:g} with links", 100.0 * options.residual,
+                      100.0 * LeakyOptions{}.residual, 100.0 * LiveLinksOptions{}.residual),
+          positive()}});
 }
 
 void add_film_options(Command& command, PlayOptions& options)

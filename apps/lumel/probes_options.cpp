@@ -48,11 +48,8 @@ void add_places(Command& command, ProbesOptions& options)
          {.names = "--bounds",
           .type = "X0,Y0,Z0,X1,Y1,Z1",
           .help = "Corners of the grid in metres",
-          .target =
-              [&options](const std::string& text) {
-                  options.bounds = bounds_of(text);
-                  , .default_value = "the scene's"
-              },
+          .target = [&options](const std::string& text) { options.bounds = bounds_of(text); },
+          .default_value = "the scene's",
           .needs = "--spacing"},
          {.names = "--at",
           .type = "X,Y,Z",

@@ -164,24 +164,21 @@ void add_talk_options(Command& command, Talk& talk)
 
 void add_stop_options(Command& command, SolverOptions& solver)
 {
-    command.add(kStopGroup,
-                {{"--shots", "N", "Stop after this many shooters; with links, rays per lumel",
-                  &solver.max_shots, "", whole(1, kMaxShots)},
-                 {"--time", "SECONDS",
-                  "Stop solving this long after the start of the command, then write the results",
-                  &solver.max_seconds, "", positive()},
-                 {.names = "--error",
-                  .type = "PERCENT",
-                  .help = "Stop at this estimated relative error of the whole lightmap",
-                  .target = [&solver](double percent) { solver.target_error = percent / 100.0; },
-                  .default_value =
-                      text_of(100.0 * solver.target_error) + ", or none with --shots or --time",
-                  .check = positive()},
-                 {"--dark-error", "PERCENT",
-                  "Stop when dark areas (below a third of the mean) reach this estimated relative "
-                  "error (only links)",
-                  [&solver](double percent) { solver.target_dark_error = percent / 100.0; }, "none",
-                  positive()}});
+    command.add(
+        kStopGroup,
+        {{"--shots", "N", "Stop after this many shooters; with links, rays per lumel",
+          &solver.max_shots, "", whole(1, kMaxShots)},
+         {"--time", "SECONDS",
+          "Stop solving this long after the start of the command, then write the results",
+          &solver.max_seconds, "", positive()},
+         {"--error", "PERCENT", "Stop at this estimated relative error of the whole lightmap",
+          [&solver](double percent) { solver.target_error = percent / 100.0; },
+          text_of(100.0 * solver.target_error) + ", or none with --shots or --time", positive()},
+         {"--dark-error", "PERCENT",
+          "Stop when dark areas (below a third of the mean) reach this estimated relative error "
+          "(only links)",
+          [&solver](double percent) { solver.target_dark_error = percent / 100.0; }, "none",
+          positive()}});
 }
 
 void drop_default_error(const Command& command, SolverOptions& solver)
@@ -210,11 +207,13 @@ void add_scene_file_options(Command& command, BakeOptions& options)
 {
     command.add(kLightmapGroup,
                 {choice(options.lightmap_format, kLightmapFormats,
-                        {"--lightmap-format", "",
+                        {"--lightmap-format",
+                         "",
                          "Lightmap in scene.glb: KTX2 with half floats (ktx2) or shared exponents "
                          "(rgb9e5), both with an 8-bit PNG for loaders that do not read KTX2; only "
                          "the PNG (png); or none",
-                         "", "ktx2"}),
+                         {},
+                         "ktx2"}),
                  {"--baked-size", "N",
                   "Maximum side of the texture of scene-baked.glb in texels; it is as dense as the "
                   "scene's textures if that fits, and never smaller than the lightmap",
@@ -230,7 +229,7 @@ void add_only_option(Command& command, Parts& parts)
 {
     command.add(kLightmapGroup,
                 {choice(parts, kParts,
-                        {"--only", "", "Bake only direct or only indirect light", "", "both"})});
+                        {"--only", "", "Bake only direct or only indirect light", {}, "both"})});
 }
 
 void add_directional_option(Command& command, Directional& directional)

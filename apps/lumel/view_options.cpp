@@ -50,14 +50,12 @@ void add_light_of_session(Command& command, SessionOptions& options)
 {
     command.add(
         kSessionGroup,
-        {{.names = "--solver",
-          .type = names_of_methods(),
-          .help = "Show the light of this method until the first edit; see lumel methods",
-          .target =
-              [&options](const std::string& id) {
-                  options.solver = SolverOptions{.method = method_of(id).defaults()};
-                  , .default_value = "none: stored links"
-              }},
+        {{"--solver", names_of_methods(),
+          "Show the light of this method until the first edit; see lumel methods",
+          [&options](const std::string& id) {
+              options.solver = SolverOptions{.method = method_of(id).defaults()};
+          },
+          "none: stored links"},
          {"--links", "N", "Rays stored per lumel: 4, 16, 64 or 256", &options.link_rays,
           text_of(options.link_rays), link_rays()},
          {"--residual", "PERCENT",
@@ -73,8 +71,7 @@ void add_light_of_session(Command& command, SessionOptions& options)
 
 Command view_command()
 {
-    const auto given = std::make_shared<ViewArguments>();
-    given->run.folder = ".";
+    const auto given = std::make_shared<ViewArguments>(ViewArguments{.run = {.folder = "."}});
     SessionOptions& options = given->options;
     Command command{.name = "view",
                     .help = "Interactive viewer: walk through a lit scene, move objects, dim lamps",

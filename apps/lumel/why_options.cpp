@@ -15,24 +15,21 @@ void add_place_options(Command& command, WhyOptions& options)
     const auto set_texel = [&options](std::array<double, 2> at) {
         options.texel = glm::ivec2(int(at[0]), int(at[1]));
     };
-    command.add(
-        "Point of the lightmap",
-        {{.names = "--lumel",
-          .type = "U,V",
-          .help = "Point of the lightmap in TEXCOORD_1, from 0,0 (top left) to 1,1 (bottom right)",
-          .target =
-              [&options](std::array<double, 2> uv) {
-                  options.place = {uv[0], uv[1]};
-              },
-          .check = between(0.0, 1.0)},
-         {.names = "--texel",
-          .type = "X,Y",
-          .help = "Point of the lightmap as column and row of a texel, from 0,0",
-          .target = set_texel,
-          .check = whole(0, kLargestAtlas - 1),
-          .excludes = "--lumel"},
-         {"--page", "N", "Page of the lightmap that holds the point", &options.page,
-          text_of(options.page), whole(0, kMaxPages - 1)}});
+    command.add("Point of the lightmap",
+                {{"--lumel", "U,V",
+                  "Point of the lightmap in TEXCOORD_1, from 0,0 (top left) to 1,1 (bottom right)",
+                  [&options](std::array<double, 2> uv) {
+                      options.place = {uv[0], uv[1]};
+                  },
+                  "", between(0.0, 1.0)},
+                 {.names = "--texel",
+                  .type = "X,Y",
+                  .help = "Point of the lightmap as column and row of a texel, from 0,0",
+                  .target = set_texel,
+                  .check = whole(0, kLargestAtlas - 1),
+                  .excludes = "--lumel"},
+                 {"--page", "N", "Page of the lightmap that holds the point", &options.page,
+                  text_of(options.page), whole(0, kMaxPages - 1)}});
 }
 
 }  // namespace
