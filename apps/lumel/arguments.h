@@ -18,7 +18,7 @@
 
 namespace lumel {
 
-/// What a command prints while it works.
+/// Output of a command while it runs.
 struct Talk {
     bool quiet = false;    ///< nothing but warnings and errors
     bool json = false;     ///< stdout carries one JSON document and nothing else
@@ -39,7 +39,7 @@ struct ReferenceArguments {
     std::string folder;
     BakeOptions options;
     ReferenceOptions reference;
-    MaterialModel materials = MaterialModel::diffuse;  ///< what is read of them
+    MaterialModel materials = MaterialModel::diffuse;  ///< material model to load
     Talk talk;
 };
 
@@ -65,33 +65,33 @@ struct ViewArguments {
 };
 
 struct UpdateArguments {
-    std::string folder;  ///< of a finished bake
+    std::string folder;  ///< finished bake
     std::string scene;   ///< as it is now
     UpdateOptions options;
     Talk talk;
 };
 
 struct RelightArguments {
-    std::string folder;  ///< of a finished bake
+    std::string folder;  ///< finished bake
     std::string states;  ///< JSON file
     RelightOptions options;
     Talk talk;
 };
 
 struct WhyArguments {
-    std::string folder;  ///< of a finished bake
+    std::string folder;  ///< finished bake
     WhyOptions options;
     Talk talk;
 };
 
 struct MeasureArguments {
-    std::string folder;  ///< of a finished bake
+    std::string folder;  ///< finished bake
     MeasureOptions options;
     Talk talk;
 };
 
 struct ProbesArguments {
-    std::string folder;  ///< of a finished bake
+    std::string folder;  ///< finished bake
     ProbesOptions options;
     Talk talk;
 };
@@ -111,8 +111,8 @@ struct CompareArguments {
 };
 
 struct ReportArguments {
-    std::string folder;  ///< of a finished bake
-    std::string other;   ///< of one to compare it with, or empty
+    std::string folder;  ///< finished bake
+    std::string other;   ///< finished bake to compare with, or empty
     std::string page;    ///< HTML file to write; empty: report.html in the folder
 };
 

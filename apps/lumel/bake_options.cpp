@@ -15,32 +15,30 @@ constexpr double kMaxCheckpointSeconds = 86'400.0;  // a day
 
 void add_resume_options(Command& command, BakeOptions& options)
 {
-    command.add(kStopGroup,
-                {{"--resume", "",
-                  "Go on with a bake that was killed or failed, from its checkpoint in the folder; "
-                  "begin anew if there is none (only links)",
-                  &options.resume},
-                 {"--checkpoint", "SECONDS",
-                  "Time between two checkpoints that --resume goes on from; 0: none (only links)",
-                  &options.checkpoint_seconds, text_of(options.checkpoint_seconds),
-                  between(0.0, kMaxCheckpointSeconds)}});
+    command.add(kStopGroup, {{"--resume", "",
+                              "Continue an interrupted bake from the checkpoint in its folder; "
+                              "without one, start from scratch (only links)",
+                              &options.resume},
+                             {"--checkpoint", "SECONDS",
+                              "Time between checkpoints for --resume; 0: none (only links)",
+                              &options.checkpoint_seconds, text_of(options.checkpoint_seconds),
+                              between(0.0, kMaxCheckpointSeconds)}});
 }
 
-/// Links that are to be kept.
+/// Links to store.
 struct GivenLinks {
     bool keep = false;
-    std::uint32_t rays = KeptLightOptions{}.rays;  ///< of a lumel
+    std::uint32_t rays = KeptLightOptions{}.rays;  ///< per lumel
 };
 
 void add_keep_links_options(Command& command, GivenLinks& links)
 {
     command.add(kMethodGroup,
                 {{"--keep-links", "",
-                  "Trace a fixed number of rays from each lumel and keep them in "
-                  "scene.lumellinks, by which lumel relight lights the scene anew, and lumel "
-                  "update follows what moves, at full resolution (only links)",
+                  "Trace a fixed number of rays per lumel and store them in scene.lumellinks, from "
+                  "which lumel relight and lumel update work at full resolution (only links)",
                   &links.keep},
-                 {"--links", "N", "With --keep-links, rays that each lumel keeps: 4, 16, 64 or 256",
+                 {"--links", "N", "With --keep-links, rays stored per lumel: 4, 16, 64 or 256",
                   &links.rays, text_of(links.rays), link_rays()}});
 }
 
@@ -48,18 +46,17 @@ void add_file_options(Command& command, BakeArguments& bake)
 {
     command.add(kLightmapGroup,
                 {{"--probes", "SPACING",
-                  "Also write probes.json, as lumel probes --spacing does: light probes this many "
-                  "metres apart; and put them into the glTF files as nodes",
+                  "Also write probes.json with light probes this many metres apart, like lumel "
+                  "probes --spacing, and add them to the glTF files as nodes",
                   &bake.options.probe_spacing, "", positive()}});
     add_preview_option(command, bake.options.preview_width);
-    command.add(kPictureGroup,
-                {{"--html", "",
-                  "Also write report.html, a page to walk through the scene and read its light, as "
-                  "lumel report does",
-                  &bake.page}});
+    command.add(
+        kPictureGroup,
+        {{"--html", "", "Also write report.html, a page to explore the bake, like lumel report",
+          &bake.page}});
 }
 
-/// Throws Error{input} for options that links which are kept do not read.
+/// Rays per lumel to store, 0: none. Throws Error{input} for options that stored links do not read.
 std::uint32_t kept_rays(const Command& command, const GivenLinks& links)
 {
     if (!links.keep) {
@@ -83,7 +80,7 @@ Command bake_command()
     const auto method = std::make_shared<GivenMethod>();
     const auto links = std::make_shared<GivenLinks>();
     BakeOptions& options = given->options;
-    Command command{.name = "bake", .help = "Solve the light of a scene into lightmaps"};
+    Command command{.name = "bake", .help = "Bake the light of a scene into lightmaps"};
     command.add({scene_argument(given->scene), result_argument(given->folder)});
     add_light_options(command, options.lights);
     add_sky_directions_option(command, options);

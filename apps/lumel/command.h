@@ -33,7 +33,7 @@ using Check = std::function<std::string(const std::string& value)>;
 /// An option or an argument of a command: {names, type, help, target, default_value, check}.
 struct Option {
     std::string names;  ///< "-q,--quiet"; the name of an argument has no dash
-    std::string type;   ///< of the value: "N", "FILE|R,G,B", "area|centre"
+    std::string type;   ///< name of the value: "N", "FILE|R,G,B", "area|centre"
     std::string help;
     Target target;
     std::string default_value;  ///< as --help prints it

@@ -13,10 +13,10 @@
 namespace lumel {
 namespace {
 
-/// What may stand as the value of an option.
+/// Completions of the value of an option.
 struct Values {
     bool files = false, folders = false, commands = false;
-    std::vector<std::string> words;  ///< that are to be typed as they are
+    std::vector<std::string> words;  ///< literal words
 };
 
 /// Types name kinds in capitals and words as they are: "FILE|R,G,B", "area|centre".

@@ -13,7 +13,7 @@ Command info_command()
     const auto method = std::make_shared<GivenMethod>();
     BakeOptions& options = given->options;
     Command command{.name = "info",
-                    .help = "List what is in a scene and what a bake of it would need"};
+                    .help = "List the contents of a scene and the memory that a bake needs"};
     command.add({scene_argument(given->scene)});
     add_light_options(command, options.lights);
     add_atlas_options(command, options.atlas);

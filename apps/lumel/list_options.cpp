@@ -10,7 +10,7 @@ Command devices_command()
 {
     const auto given = std::make_shared<DevicesArguments>();
     Command command{.name = "devices",
-                    .help = "List the Vulkan devices, and why one cannot be used"};
+                    .help = "List the Vulkan devices, and the reason if one is unusable"};
     add_json_flag(command, given->json);
     command.arguments = [given](const Command&) -> Arguments { return {*given}; };
     return command;

@@ -93,7 +93,7 @@ std::vector<OptionSection> sections_of(const Command& program)
     for (const Command* command : commands_of(program))
         for (const Option* option : options_of(*command))
             add_row(sections, *option, command->name);
-    // What all commands have comes first in each of them, and last on the page.
+    // Options of all commands come first in each command, and last on the page.
     std::rotate(sections.begin(), sections.begin() + (sections.empty() ? 0 : 1), sections.end());
     return sections;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the commands that take their time have in common at the terminal.
+// Terminal output of long-running commands.
 
 #include <functional>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace lumel {
 
-/// What is printed at its end.
+/// Printed when the work has ended.
 struct Conclusion {
     std::string report;    ///< JSON, with its line break
     std::string sentence;  ///< the same in a line for people

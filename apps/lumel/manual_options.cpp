@@ -34,8 +34,8 @@ std::string help_of(const Command& program, const std::string& name)
 Command help_command(const Command& program)
 {
     const auto name = std::make_shared<std::string>();
-    Command command{.name = "help", .help = "Describe the program, or one of its commands"};
-    command.add({{"command", kCommandType, "The command", name.get()}});
+    Command command{.name = "help", .help = "Print the help of the program or of a command"};
+    command.add({{"command", kCommandType, "Command to describe", name.get()}});
     command.arguments = [&program, name](const Command&) -> Arguments {
         return {TextArguments{help_of(program, *name)}};
     };
@@ -45,7 +45,7 @@ Command help_command(const Command& program)
 Command man_command(const Command& program)
 {
     return {.name = "man",
-            .help = "Print the manual page; lumel man | man -l - shows it",
+            .help = "Print the manual page; to read it: lumel man | man -l -",
             .arguments = [&program](const Command&) -> Arguments {
                 return {TextArguments{man_page(program)}};
             }};
@@ -54,11 +54,10 @@ Command man_command(const Command& program)
 Command completion_command(const Command& program)
 {
     const auto shell = std::make_shared<Shell>(Shell::bash);
-    Command command{.name = "completion",
-                    .help = "Print what completes commands and options in a shell"};
+    Command command{.name = "completion", .help = "Print a completion script for bash or zsh"};
     command.add({choice(*shell, kShells,
                         {.names = "shell",
-                         .help = "bash or zsh; source <(lumel completion bash)",
+                         .help = "bash or zsh; to enable it: source <(lumel completion bash)",
                          .required = true})});
     command.arguments = [&program, shell](const Command&) -> Arguments {
         return {TextArguments{completion_script(program, *shell)}};

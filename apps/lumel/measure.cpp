@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kRows = 24;
 constexpr double kPercent = 100.0;
 
-/// Of a value, with as many digits as its noise leaves sense in.
+/// A value, rounded to the digits that its noise leaves significant.
 std::string lux_text(double lux)
 {
     return fmt::format("{:.4g}", lux);

@@ -49,21 +49,21 @@ void add_places(Command& command, MeasureOptions& options)
         kPlacesGroup,
         {{.names = "--at",
           .type = "X,Y,Z[,NX,NY,NZ]",
-          .help = "Point in metres, in the air or on a surface, and what it faces, up if that is "
-                  "left out; may be repeated",
+          .help = "Point in metres, in the air or on a surface, and the normal of the receiver, by "
+                  "default up; repeatable",
           .target =
               [&options](const std::string& text) { options.points.push_back(point_of(text)); },
           .repeatable = true},
          {.names = "--plane",
           .type = "Y",
-          .help = "Height in metres of a work plane, horizontal, facing up, that blocks nothing; "
-                  "points inside of things are left out",
+          .help = "Height in metres of a horizontal work plane that faces up and casts no shadow; "
+                  "points inside objects are left out",
           .target = [&options](double height) { options.height = height; },
           .check = between(-kFarthest, kFarthest),
           .excludes = "--at"},
          {.names = "--spacing",
           .type = "F",
-          .help = "Metres from point to point of the plane",
+          .help = "Distance between points of the plane in metres",
           .target = &options.spacing,
           .default_value = "1/20 of its longer side",
           .check = positive(),
@@ -74,7 +74,7 @@ void add_places(Command& command, MeasureOptions& options)
           .target = [&options](const std::string& text) { options.bounds = bounds_of(text); },
           .default_value = "the scene's",
           .needs = "--plane"},
-         {"--samples", "N", "Rays of a point over its hemisphere, and as many towards lights",
+         {"--samples", "N", "Hemisphere rays per point; as many again go to light sources",
           &options.samples, text_of(options.samples), whole(kMinSamples, kMaxSamples)}});
 }
 
@@ -85,14 +85,14 @@ void add_files(Command& command, MeasureOptions& options)
         {{"--csv", "FILE.csv", "Write all points as a table", &options.table},
          {.names = "--false-colour",
           .type = "FILE.png",
-          .help = "Write a picture of the plane in false colours, with a legend in lux",
+          .help = "Write an image of the plane in false colours, with a legend in lux",
           .target = &options.picture,
           .needs = "--plane"},
          {"--preview", "FILE.png",
           "Write the view of preview.png in false colours, with a legend in lux", &options.preview},
          {.names = "--width",
           .type = "N",
-          .help = "Width of that picture in pixels",
+          .help = "Width of the image of --preview in pixels",
           .target = &options.width,
           .default_value = text_of(options.width),
           .check = whole(1, kLargestAtlas),
@@ -106,7 +106,7 @@ Command measure_command()
     const auto given = std::make_shared<MeasureArguments>();
     MeasureOptions& options = given->options;
     Command command{.name = "measure",
-                    .help = "Measure the light of a bake in lux: at points, or on a work plane"};
+                    .help = "Measure illuminance in a baked scene, at points or on a work plane"};
     command.add({bake_argument(given->folder)});
     add_places(command, options);
     add_files(command, options);

@@ -77,7 +77,7 @@ void add_methods(Command& command, GivenMethod& given, const std::vector<std::st
                  const std::vector<OmittedOption>& omitted)
 {
     const std::vector<std::string_view> ids = some.empty() ? all_methods() : some;
-    Option solver{"--solver", listed(ids), "Method, see lumel methods", &given.id, given.id};
+    Option solver{"--solver", listed(ids), "Method; see lumel methods", &given.id, given.id};
     if (!some.empty())
         solver.check = one_of(ids);
     command.add(kMethodGroup, {solver});

@@ -114,10 +114,10 @@ std::string complaint(const Command& program, const CLI::App& app, const CLI::Pa
     if (!extras.empty() && none_named)
         return unknown_command(program, extras.front());
     if (extras.empty() && none_named && error.get_name() == "RequiredError")
-        return "a command is needed; lumel --help lists what there is";
-    const std::string advice = "; " + path_of(program, command) + " --help lists what there is";
+        return "no command given; see lumel --help";
+    const std::string advice = "; see " + path_of(program, command) + " --help";
     return extras.empty() ? error.what() + advice
-                          : fmt::format("{} was not expected{}", extras.front(), advice);
+                          : fmt::format("unexpected argument {}{}", extras.front(), advice);
 }
 
 }  // namespace

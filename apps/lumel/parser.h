@@ -10,7 +10,7 @@ struct Parsed {
     enum class Wish { command, help, version };
 
     Wish wish = Wish::command;
-    const Command* command = nullptr;  ///< that was named; the program if none was
+    const Command* command = nullptr;  ///< named command, or the program
 };
 
 /// Stores all values in the targets of their options, and the number of occurrences in the options.

@@ -28,7 +28,7 @@ const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution
 
 const Choices<Film> kFilms = {{"mp4", Film::mp4}, {"webm", Film::webm}, {"none", Film::none}};
 
-/// What is played.
+/// Frames to render.
 void add_animation_options(Command& command, PlayOptions& options)
 {
     command.add(kAnimationGroup,
@@ -36,34 +36,32 @@ void add_animation_options(Command& command, PlayOptions& options)
                   whole(1, kMaxFrames)},
                  {"--fps", "N", "Frames per second of the animation", &options.fps,
                   text_of(options.fps), between(1.0 / kMaxFps, kMaxFps)},
-                 {"--animation", "N", "Animation of the file by its number, from 0",
-                  &options.animation, text_of(options.animation), whole(0, kMaxAnimations)}});
+                 {"--animation", "N", "Animation of the file, by number from 0", &options.animation,
+                  text_of(options.animation), whole(0, kMaxAnimations)}});
 }
 
-/// How closely light follows.
+/// Updates of the light between frames.
 void add_follow_options(Command& command, PlayOptions& options)
 {
     command.add(
         kAnimationGroup,
         {choice(options.redistribution, kRedistributions,
                 {"--redistribution", "",
-                 "With --solver progressive, how light follows a move: incremental shoots "
-                 "again past the old and the new position, as exact as a new solution; "
-                 "cross uses only views from what moves, which is faster where that is "
-                 "small"}),
+                 "With --solver progressive, update after a move: incremental shoots again past "
+                 "the old and the new position and is as exact as a new solution; cross uses only "
+                 "views from the moved objects, which is faster if they are small"}),
          {"--leak", "F",
-          "With --solver directions, the share of the running mean that each direction "
-          "replaces: more follows faster and is noisier",
+          "With --solver directions, the share of the running mean that each direction replaces; "
+          "higher values follow changes faster but are noisier",
           &options.leak, text_of(options.leak), between(kMinLeak, kMaxLeak)},
-         {"--links", "N", "With --solver links, rays that each lumel keeps: 4, 16, 64 or 256",
+         {"--links", "N", "With --solver links, rays stored per lumel: 4, 16, 64 or 256",
           &options.link_rays, text_of(options.link_rays), link_rays()},
          {"--budget", "MS",
-          "Milliseconds for the light of each frame; where they are not enough it lags "
-          "behind",
-          &options.budget_ms, "as needed", positive()},
+          "Milliseconds per frame for updating the light; if they are not enough, it lags behind",
+          &options.budget_ms, "unlimited", positive()},
          {"--residual", "PERCENT",
-          "Light left to be shot, or to bounce, as a part of all, at which a solution is "
-          "at rest; with --solver directions, what is left of the light before a change",
+          "Stop when unshot or unreflected light falls below this share; with --solver directions, "
+          "when this share of the light before a change is left",
           [&options](double percent) { options.residual = percent / 100.0; },
           fmt::format("{:g}, {:g} with directions, {:g} with links", 100.0 * options.residual,
                       100.0 * LeakyOptions{}.residual, 100.0 * LiveLinksOptions{}.residual),
@@ -75,9 +73,9 @@ void add_film_options(Command& command, PlayOptions& options)
     command.add(kAnimationGroup,
                 {choice(options.film, kFilms,
                         {"--film", "",
-                         "Film of the frames, where ffmpeg is installed: play.mp4 or play.webm"}),
-                 {"--exposure", "F", "Factor from cd/m2 to brightness, the same for all frames",
-                  &options.exposure, "as suits the first frame", positive()}});
+                         "Encode the frames as play.mp4 or play.webm, if ffmpeg is installed"}),
+                 {"--exposure", "F", "Factor from cd/m2 to brightness, for all frames",
+                  &options.exposure, "from the first frame", positive()}});
 }
 
 /// Throws Error{input} if an option was given that is of another method.
@@ -90,7 +88,7 @@ void refuse_others(const Command& command, const std::string& method)
             throw Error(ErrorKind::input, option, "is not read by --solver " + method);
 }
 
-/// Where the command does not say otherwise.
+/// Default residual of a method.
 double residual_of(const MethodOptions& method)
 {
     if (std::holds_alternative<DirectionsOptions>(method))
@@ -124,7 +122,7 @@ Command play_command()
         std::make_shared<GivenMethod>(GivenMethod{.id = method_of(ProgressiveOptions{}).id});
     PlayOptions& options = given->options;
     Command command{.name = "play",
-                    .help = "Render a scene's animation and correct the light from frame to frame"};
+                    .help = "Render a scene's animation, updating the light from frame to frame"};
     command.add({scene_argument(given->scene), result_argument(given->folder)});
     add_animation_options(command, options);
     add_follow_options(command, options);

@@ -43,7 +43,7 @@ void add_places(Command& command, ProbesOptions& options)
 {
     command.add(
         kPlacesGroup,
-        {{"--spacing", "F", "Grid of probes, this many metres apart, over the scene",
+        {{"--spacing", "F", "Grid of probes over the scene, this many metres apart",
           &options.spacing, "", positive()},
          {.names = "--bounds",
           .type = "X0,Y0,Z0,X1,Y1,Z1",
@@ -53,14 +53,14 @@ void add_places(Command& command, ProbesOptions& options)
           .needs = "--spacing"},
          {.names = "--at",
           .type = "X,Y,Z",
-          .help = "Probe at a point in metres, beside those of nodes with extras.lumel.probe; may "
-                  "be repeated",
+          .help = "Probe at a point in metres, in addition to nodes with extras.lumel.probe; "
+                  "repeatable",
           .target =
               [&options](const std::string& text) { options.places.push_back(place_of(text)); },
           .repeatable = true},
          {"--samples", "N",
-          "Rays of a probe over the sphere, and as many towards lights, at least; up to 64 "
-          "times as many where their noise is above 0.5 %",
+          "Minimum rays per probe over the sphere, and as many towards lights; up to 64 times as "
+          "many if their noise is above 0.5 %",
           &options.samples, text_of(options.samples), whole(kMinSamples, kMaxSamples)}});
 }
 
@@ -71,7 +71,8 @@ Command probes_command()
     const auto given = std::make_shared<ProbesArguments>();
     Command command{
         .name = "probes",
-        .help = "Find the light in the air of a bake: spherical harmonics at a grid or points"};
+        .help =
+            "Compute light probes of a baked scene: spherical harmonics on a grid or at points"};
     command.add({bake_argument(given->folder)});
     add_places(command, given->options);
     command.add(kFilesGroup, {{"-o,--output", "FILE.json", "File to write", &given->options.file,

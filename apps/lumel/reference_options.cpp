@@ -20,21 +20,18 @@ Command reference_command()
 {
     const auto given = std::make_shared<ReferenceArguments>();
     ReferenceOptions& reference = given->reference;
-    Command command{.name = "reference",
-                    .help = "Compute the same map by path tracing on the processor"};
+    Command command{.name = "reference", .help = "Path-trace a reference lightmap on the CPU"};
     command.add({scene_argument(given->scene), result_argument(given->folder)});
-    command.add(
-        kMethodGroup,
-        {{"--spp", "N", "Paths per lumel", &reference.samples_per_lumel,
-          text_of(reference.samples_per_lumel), whole(1, kMaxPaths)},
-         {"--seed", "N", "Random seed", &reference.seed, text_of(reference.seed),
-          whole(0, std::numeric_limits<std::uint32_t>::max())},
-         choice(reference.rule, kSampleRules,
-                {"--sampling", "",
-                 "Receive over the covered area of a lumel (the default) or at its "
-                 "centre"}),
-         {"--gloss", "", "Include glossy reflection between surfaces, as --solver glossy does",
-          [given = given.get()] { given->materials = MaterialModel::glossy; }}});
+    command.add(kMethodGroup,
+                {{"--spp", "N", "Paths per lumel", &reference.samples_per_lumel,
+                  text_of(reference.samples_per_lumel), whole(1, kMaxPaths)},
+                 {"--seed", "N", "Random seed", &reference.seed, text_of(reference.seed),
+                  whole(0, std::numeric_limits<std::uint32_t>::max())},
+                 choice(reference.rule, kSampleRules,
+                        {"--sampling", "",
+                         "Receive over the covered area of a lumel (area) or at its centre"}),
+                 {"--gloss", "", "Include glossy reflection between surfaces, like --solver glossy",
+                  [given = given.get()] { given->materials = MaterialModel::glossy; }}});
     add_only_option(command, reference.parts);
     add_light_options(command, given->options.lights);
     add_atlas_options(command, given->options.atlas);

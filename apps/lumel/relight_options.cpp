@@ -9,11 +9,12 @@ namespace lumel {
 Command relight_command()
 {
     const auto given = std::make_shared<RelightArguments>();
-    Command command{.name = "relight",
-                    .help = "Light a bake of --keep-links or --solver matrix anew, with its lights "
-                            "dimmed, coloured, switched off or moved"};
+    Command command{
+        .name = "relight",
+        .help = "Relight a baked scene, with its lights dimmed, coloured, switched off or moved"};
     command.add(
-        {bake_argument(given->folder, "What lumel bake wrote with --keep-links or --solver matrix"),
+        {bake_argument(given->folder,
+                       "Folder that lumel bake wrote with --keep-links or --solver matrix"),
          {.names = "states",
           .type = "FILE",
           .help =

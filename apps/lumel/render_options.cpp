@@ -19,55 +19,55 @@ constexpr double kMaxKept = 1000.0;  // frames
 
 void add_film_options(Command& command, FilmOptions& film)
 {
-    command.add(
-        "Animation",
-        {{"--frames", "N",
-          "Make so many pictures of the scene's animation, each of which goes on from the "
-          "light of the one before",
-          &film.frames, "", whole(1, kMaxFrames)},
-         {.names = "--fps",
-          .type = "N",
-          .help = "Frames per second of the animation",
-          .target = &film.fps,
-          .default_value = text_of(film.fps),
-          .check = between(1.0 / kMaxFps, kMaxFps),
-          .needs = "--frames"},
-         {.names = "--animation",
-          .type = "N",
-          .help = "Animation of the file by its number, from 0",
-          .target = &film.animation,
-          .default_value = text_of(film.animation),
-          .check = whole(0, kMaxAnimations),
-          .needs = "--frames"},
-         {.names = "--keep",
-          .type = "F",
-          .help = "What a frame keeps of the average of the one before, in terms of that one's "
-                  "iterations; more is less noise and light that lags behind",
-          .target = &film.kept,
-          .default_value = text_of(film.kept),
-          .check = between(0.0, kMaxKept),
-          .needs = "--frames"},
-         {.names = "--fresh",
-          .help = "Solve each frame from nothing",
-          .target = &film.fresh,
-          .needs = "--frames"}});
+    command.add("Animation",
+                {{"--frames", "N",
+                  "Render this many frames of the scene's animation; each starts from the light of "
+                  "the one before",
+                  &film.frames, "", whole(1, kMaxFrames)},
+                 {.names = "--fps",
+                  .type = "N",
+                  .help = "Frames per second of the animation",
+                  .target = &film.fps,
+                  .default_value = text_of(film.fps),
+                  .check = between(1.0 / kMaxFps, kMaxFps),
+                  .needs = "--frames"},
+                 {.names = "--animation",
+                  .type = "N",
+                  .help = "Animation of the file, by number from 0",
+                  .target = &film.animation,
+                  .default_value = text_of(film.animation),
+                  .check = whole(0, kMaxAnimations),
+                  .needs = "--frames"},
+                 {.names = "--keep",
+                  .type = "F",
+                  .help = "Weight of the previous frame's average, relative to its number of "
+                          "iterations; higher values reduce noise, but light lags behind",
+                  .target = &film.kept,
+                  .default_value = text_of(film.kept),
+                  .check = between(0.0, kMaxKept),
+                  .needs = "--frames"},
+                 {.names = "--fresh",
+                  .help = "Solve each frame from scratch",
+                  .target = &film.fresh,
+                  .needs = "--frames"}});
 }
 
 void add_sample_options(Command& command, RenderOptions& options)
 {
-    command.add(kPictureGroup,
-                {{"--height", "N", "Height of the picture in pixels", &options.height,
-                  "from the camera", whole(1, kLargestAtlas)},
-                 {"--places", "N", "Sample points in each pixel", &options.sets,
-                  text_of(options.sets), whole(1, kMaxPlaces)},
-                 {"--eye-shots", "N",
-                  "Shooters for glossy reflections in view, after those of the solution",
-                  &options.shots, text_of(options.shots), whole(0, kMaxShots)},
-                 {"--lobe-rays", "N", "Rays along the lobe at each sample point", &options.rays,
-                  text_of(options.rays), whole(0, kMaxRays)},
-                 {"--paths", "N",
-                  "Trace this many paths per pixel on the processor instead, to compare with",
-                  &options.paths, "", whole(1, kMaxPaths)}});
+    command.add(
+        kPictureGroup,
+        {{"--height", "N", "Height of the image in pixels", &options.height, "from the camera",
+          whole(1, kLargestAtlas)},
+         {"--places", "N", "Sample points per pixel", &options.sets, text_of(options.sets),
+          whole(1, kMaxPlaces)},
+         {"--eye-shots", "N",
+          "Additional shooters for glossy reflections in view, after the solution", &options.shots,
+          text_of(options.shots), whole(0, kMaxShots)},
+         {"--lobe-rays", "N", "Rays along the BRDF lobe per sample point", &options.rays,
+          text_of(options.rays), whole(0, kMaxRays)},
+         {"--paths", "N",
+          "Path-trace the image on the CPU instead, with this many paths per pixel, for comparison",
+          &options.paths, "", whole(1, kMaxPaths)}});
 }
 
 }  // namespace
@@ -78,13 +78,12 @@ Command render_command()
     const auto method = std::make_shared<GivenMethod>(
         GivenMethod{.id = method_of(given->options.bake.solver.method).id});
     RenderOptions& options = given->options;
-    Command command{
-        .name = "render",
-        .help = "Make a picture of a scene from one of its cameras, glossy reflections included"};
+    Command command{.name = "render",
+                    .help = "Render a scene from one of its cameras, with glossy reflections"};
     command.add({scene_argument(given->scene),
                  {.names = "picture",
                   .type = "FILE",
-                  .help = "PNG, or EXR of radiance in cd/m2",
+                  .help = "Image to write: PNG, or EXR with radiance in cd/m2",
                   .target = &given->picture,
                   .required = true}});
     add_picture_options(command, options.camera, options.width);

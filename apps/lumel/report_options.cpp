@@ -9,12 +9,11 @@ namespace lumel {
 Command report_command()
 {
     const auto given = std::make_shared<ReportArguments>();
-    Command command{
-        .name = "report",
-        .help = "Write a page to walk through a bake and read its light, or to compare two"};
+    Command command{.name = "report",
+                    .help = "Write an HTML page to explore a bake or to compare two"};
     command.add(
         {bake_argument(given->folder),
-         {"other", "FOLDER", "A second bake, shown beside the first by a slider", &given->other}});
+         {"other", "FOLDER", "Second bake, compared with the first by a slider", &given->other}});
     command.add("Files", {{"-o,--output", "FILE", "HTML file to write", &given->page,
                            "report.html in the first folder"}});
     command.arguments = [given](const Command&) -> Arguments { return {*given}; };

@@ -48,7 +48,7 @@ Option scene_argument(std::string& scene)
 {
     return {.names = "scene",
             .type = "FILE",
-            .help = "A .gltf or .glb file",
+            .help = "glTF scene, a .gltf or .glb file",
             .target = &scene,
             .required = true};
 }
@@ -57,7 +57,7 @@ Option result_argument(std::string& folder)
 {
     return {.names = "folder",
             .type = "FOLDER",
-            .help = "Where the results go",
+            .help = "Output folder",
             .target = &folder,
             .required = true};
 }
@@ -71,26 +71,26 @@ void add_atlas_options(Command& command, AtlasOptions& atlas)
 {
     command.add(
         kLightmapGroup,
-        {{"--texels-per-metre", "N", "Density of the lightmap, the main control of its size",
-          &atlas.texels_per_metre, "as fills the atlas", positive()},
-         {"--size", "N", "Side of the square atlas in texels, instead of a density", &atlas.size,
+        {{"--texels-per-metre", "N", "Texel density of the lightmap, the main control of its size",
+          &atlas.texels_per_metre, "fills the lightmap", positive()},
+         {"--size", "N", "Side of the square lightmap in texels, instead of a density", &atlas.size,
           "as needed, from 512", whole(1, kLargestAtlas)},
          {.names = "--density",
           .type = "NAME=N",
-          .help = "Texels per metre of the nodes, meshes or materials of a name, in which * and ? "
-                  "stand for letters; may be repeated, the last that fits counts",
+          .help = "Texels per metre of the nodes, meshes or materials of this name; * and ? match "
+                  "letters; repeatable, the last match wins",
           .target =
               [&atlas](const std::string& rule) { atlas.densities.push_back(density_rule(rule)); },
           .repeatable = true},
          {"--coarse-afar", "",
-          "Fewer texels for what is far from cameras and detail, as the ground around a "
+          "Fewer texels for surfaces far from cameras and detail, such as the ground around a "
           "house",
           &atlas.coarse_afar},
          {"--pages", "N",
-          "Most lightmaps of that side to spread over, lightmap-0.exr and so on, where one "
-          "is too small for the density, or to fill where only --size is given",
+          "Maximum number of lightmap pages, lightmap-0.exr and so on, used if one is too small "
+          "for the density; if only --size is given, all are filled",
           &atlas.pages, "1", whole(1, kMaxPages)},
-         {"--max-size", "N", "Largest side of the atlas; the density is lowered to fit",
+         {"--max-size", "N", "Maximum side of the lightmap; the density is lowered to fit",
           &atlas.max_size, text_of(atlas.max_size), whole(1, kLargestAtlas)},
          {"--gutter", "N", "Empty texels around each chart", &atlas.gutter, text_of(atlas.gutter),
           whole(0, kLargestGutter)}});
@@ -98,13 +98,13 @@ void add_atlas_options(Command& command, AtlasOptions& atlas)
 
 void add_sides_option(Command& command, AtlasOptions& atlas)
 {
-    command.add(kLightmapGroup,
-                {choice(atlas.sides, kSides,
-                        {"--sides", "",
-                         "Of double-sided surfaces the lightmap shows both sides, with "
-                         "texels and a face for each, where light may reach both (auto) or "
-                         "always (both); or one side, chart by chart the brighter one "
-                         "(brighter) or the front (front)"})});
+    command.add(
+        kLightmapGroup,
+        {choice(atlas.sides, kSides,
+                {"--sides", "",
+                 "Which sides of double-sided surfaces are baked, each with texels and a face of "
+                 "its own: both if light may reach both (auto), always both (both), the brighter "
+                 "one of each chart (brighter), or the front (front)"})});
 }
 
 void add_light_options(Command& command, LightOptions& lights)
@@ -112,31 +112,30 @@ void add_light_options(Command& command, LightOptions& lights)
     command.add(
         kLightGroup,
         {{"--sky", "FILE|R,G,B|overcast",
-          "Light from all directions: an .exr or .hdr panorama in cd/m2, +x at its centre, "
-          "one colour, or the CIE overcast sky, which gives an open horizontal plane "
-          "10,000 lx; overcast:LUX sets another value",
+          "Sky: an .exr or .hdr panorama in cd/m2 with +x at its centre, a uniform colour in "
+          "cd/m2, or the CIE overcast sky with 10,000 lx on an open horizontal plane; overcast:LUX "
+          "sets another value",
           [&lights](const std::string& text) { set_sky(lights, text); }},
-         {"--sky-scale", "F", "Factor for the light of the sky", &lights.sky_scale, "1",
-          positive()},
+         {"--sky-scale", "F", "Scale factor for sky radiance", &lights.sky_scale, "1", positive()},
          {"--sky-rotation", "DEGREES",
-          "Rotate the sky and --sun about +y, counter-clockwise as seen from above",
+          "Rotate the sky and --sun about +y, counter-clockwise seen from above",
           [&lights](double degrees) { lights.sky_rotation = glm::radians(degrees); }, "0",
           between(-kMaxDegrees, kMaxDegrees)},
          {"--sun", "POSITION",
-          "Sun, with a clear sky unless there is a --sky: AZIMUTH,ELEVATION in degrees, "
-          "the azimuth clockwise from north (-z), or LATITUDE,LONGITUDE,DATETIME such as "
+          "Sun, with a clear sky unless --sky is given: AZIMUTH,ELEVATION in degrees, azimuth "
+          "clockwise from north (-z), or LATITUDE,LONGITUDE,DATETIME such as "
           "47.5,19.0,2024-06-21T14:00:00+02:00",
           [&lights](const std::string& text) { set_sun(lights, text); }},
          {"--sun-angle", "DEGREES",
-          "Half the angle of the sun's disc, and of directional lights without one",
+          "Angular radius of the sun, and of directional lights that have none",
           [&lights](double degrees) { lights.sun_angle = float(glm::radians(degrees)); },
           "0.2665 for --sun", between(0.0, kLargestSunAngle)},
-         {"--light-radius", "METRES", "Radius of point and spot lights without one",
+         {"--light-radius", "METRES", "Radius of point and spot lights that have none",
           &lights.light_radius, "0", positive()},
          {.names = "--ies",
           .type = "LIGHT=FILE",
-          .help = "IES photometric file for the point or spot lights of this name; a * stands for "
-                  "any letters, as in 'lamp*=lamp.ies'; may be repeated",
+          .help = "IES photometric file for the point or spot lights of this name; * matches any "
+                  "letters, as in 'lamp*=lamp.ies'; repeatable",
           .target = [&lights](const std::string& text) { add_profile(lights, text); },
           .repeatable = true}});
 }
@@ -144,22 +143,22 @@ void add_light_options(Command& command, LightOptions& lights)
 void add_json_flag(Command& command, bool& json)
 {
     command.add(kProgramGroup,
-                {{"--json", "", "Print one JSON document on stdout, and nothing else", &json}});
+                {{"--json", "", "Print one JSON document on stdout and nothing else", &json}});
 }
 
 void add_talk_options(Command& command, Talk& talk)
 {
-    command.add(kProgramGroup,
-                {{"-q,--quiet", "", "Print only warnings and errors", &talk.quiet},
-                 {.names = "--verbose",
-                  .help = "Print stages, sizes, memory and device times on stderr as they become "
-                          "known",
-                  .target = &talk.verbose,
-                  .excludes = "--quiet"}});
+    command.add(
+        kProgramGroup,
+        {{"-q,--quiet", "", "Print only warnings and errors", &talk.quiet},
+         {.names = "--verbose",
+          .help = "Print stages, sizes, memory and GPU times on stderr as the work proceeds",
+          .target = &talk.verbose,
+          .excludes = "--quiet"}});
     add_json_flag(command, talk.json);
     command.add(kProgramGroup,
                 {{"--no-progress", "",
-                  "Show no progress line; there is one only where stderr is a terminal",
+                  "Hide the progress line, which is shown only if stderr is a terminal",
                   [&talk] { talk.progress = false; }}});
 }
 
@@ -167,18 +166,17 @@ void add_stop_options(Command& command, SolverOptions& solver)
 {
     command.add(
         kStopGroup,
-        {{"--shots", "N", "Stop after this many shooters; of links: rays of each lumel",
+        {{"--shots", "N", "Stop after this many shooters; with links, rays per lumel",
           &solver.max_shots, "", whole(1, kMaxShots)},
          {"--time", "SECONDS",
-          "Stop solving when this time has passed since the start of the command; the "
-          "results are then written",
+          "Stop solving this long after the start of the command, then write the results",
           &solver.max_seconds, "", positive()},
-         {"--error", "PERCENT", "Stop at this estimated error of the whole map",
+         {"--error", "PERCENT", "Stop at this estimated relative error of the whole lightmap",
           [&solver](double percent) { solver.target_error = percent / 100.0; },
           text_of(100.0 * solver.target_error) + ", or none with --shots or --time", positive()},
          {"--dark-error", "PERCENT",
-          "Stop at this estimated error of the lumels below a third of the mean, as a part "
-          "of their own light (only links)",
+          "Stop when dark areas (below a third of the mean) reach this estimated relative error "
+          "(only links)",
           [&solver](double percent) { solver.target_dark_error = percent / 100.0; }, "none",
           positive()}});
 }
@@ -194,16 +192,14 @@ void add_sky_directions_option(Command& command, BakeOptions& options)
 {
     command.add(
         kLightGroup,
-        {{"--sky-directions", "N",
-          "Directions from which the light of the sky is gathered (not by links)",
+        {{"--sky-directions", "N", "Number of directions that sample the sky (not by links)",
           &options.sky_directions, text_of(options.sky_directions), whole(2, kMaxDirections)}});
 }
 
 void add_keep_lights_option(Command& command, bool& keep_lights)
 {
     command.add(kLightmapGroup, {{"--keep-lights", "",
-                                  "Keep lamps and skies of the scene in scene.glb, though "
-                                  "their light is baked",
+                                  "Keep lamps and skies in scene.glb although their light is baked",
                                   &keep_lights}});
 }
 
@@ -213,13 +209,14 @@ void add_scene_file_options(Command& command, BakeOptions& options)
                 {choice(options.lightmap_format, kLightmapFormats,
                         {"--lightmap-format",
                          "",
-                         "Lightmap in scene.glb: half floats or shared exponents in KTX2, with an "
-                         "8-bit PNG for loaders that do not read it; the PNG alone; or none",
+                         "Lightmap in scene.glb: KTX2 with half floats (ktx2) or shared exponents "
+                         "(rgb9e5), both with an 8-bit PNG for loaders that do not read KTX2; only "
+                         "the PNG (png); or none",
                          {},
                          "ktx2"}),
                  {"--baked-size", "N",
-                  "Largest side of the texture of scene-baked.glb in texels: it is as dense as the "
-                  "textures of the scene where that fits, and never smaller than the lightmap",
+                  "Maximum side of the texture of scene-baked.glb in texels; it is as dense as the "
+                  "scene's textures if that fits, and never smaller than the lightmap",
                   &options.baked_size, text_of(options.baked_size), whole(1, kLargestAtlas)}});
 }
 
@@ -237,19 +234,17 @@ void add_only_option(Command& command, Parts& parts)
 
 void add_directional_option(Command& command, Directional& directional)
 {
-    command.add(kLightmapGroup,
-                {choice(directional, kDirectional,
-                        {"--directional", "",
-                         "Also store where the light comes from, as spherical harmonics of "
-                         "order 1 or 2"})});
+    command.add(kLightmapGroup, {choice(directional, kDirectional,
+                                        {"--directional", "",
+                                         "Also store the direction of incident light, as spherical "
+                                         "harmonics of order 1 or 2"})});
 }
 
 void add_device_option(Command& command, std::string& device)
 {
-    command.add(
-        kProgramGroup,
-        {{"--device", "NAME", "Vulkan device: its index or a part of its name, see lumel devices",
-          &device, "the best"}});
+    command.add(kProgramGroup, {{"--device", "NAME",
+                                 "Vulkan device, by index or part of its name; see lumel devices",
+                                 &device, "the best"}});
 }
 
 void add_memory_option(Command& command, std::uint64_t& bytes)
@@ -257,36 +252,37 @@ void add_memory_option(Command& command, std::uint64_t& bytes)
     const auto check = [](const std::string& text) -> std::string {
         return bytes_of(text) ? "" : fmt::format("'{}' is no size such as 512M or 2G", text);
     };
-    command.add(kProgramGroup,
-                {{"--max-memory", "SIZE",
-                  "Memory that the host and the device may each take, such as 512M or 2G: what "
-                  "needs more is refused with a --size that fits, and links stop adding rays",
-                  [&bytes](const std::string& text) { bytes = *bytes_of(text); }, "what they have",
-                  check}});
+    command.add(
+        kProgramGroup,
+        {{"--max-memory", "SIZE",
+          "CPU and GPU memory limit (each), such as 512M or 2G: a bake that needs more is refused, "
+          "with a --size that fits; links stop adding rays",
+          [&bytes](const std::string& text) { bytes = *bytes_of(text); }, "all available", check}});
 }
 
 void add_dump_option(Command& command, std::string& folder)
 {
-    command.add(kProgramGroup,
-                {{"--dump", "FOLDER",
-                  "Also write intermediate images there, as EXR and PNG: what the brightest lumel "
-                  "sees, the surfaces under the sky layer by layer, near-field row sums, and power",
-                  &folder}});
+    command.add(
+        kProgramGroup,
+        {{"--dump", "FOLDER",
+          "Also write intermediate images to this folder, as EXR and PNG: the view from the "
+          "brightest lumel, the layers of surfaces under the sky, near-field row sums, and power",
+          &folder}});
 }
 
 void add_preview_option(Command& command, int& width)
 {
-    command.add(kPictureGroup, {{"--preview-width", "N", "Width of preview.png in pixels; 0: none",
-                                 &width, text_of(width), whole(0, kLargestAtlas)}});
+    command.add(kPictureGroup,
+                {{"--preview-width", "N", "Width of preview.png in pixels; 0: no preview", &width,
+                  text_of(width), whole(0, kLargestAtlas)}});
 }
 
 void add_picture_options(Command& command, int& camera, int& width)
 {
-    command.add(kPictureGroup,
-                {{"--camera", "N", "Camera of the file by its number, from 0", &camera,
-                  "the first, or one that is chosen", whole(0, kMaxCameras)},
-                 {"--width", "N", "Width of the picture in pixels", &width, text_of(width),
-                  whole(1, kLargestAtlas)}});
+    command.add(kPictureGroup, {{"--camera", "N", "Camera of the file, by number from 0", &camera,
+                                 "the first, else chosen automatically", whole(0, kMaxCameras)},
+                                {"--width", "N", "Width of the image in pixels", &width,
+                                 text_of(width), whole(1, kLargestAtlas)}});
 }
 
 }  // namespace lumel

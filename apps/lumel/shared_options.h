@@ -27,16 +27,16 @@ Option scene_argument(std::string& scene);
 Option result_argument(std::string& folder);
 
 /// The folder of a finished bake.
-Option bake_argument(std::string& folder, const std::string& help = "What lumel bake wrote");
+Option bake_argument(std::string& folder, const std::string& help = "Folder that lumel bake wrote");
 
 // Options. The targets must outlive the command.
 
 void add_atlas_options(Command& command, AtlasOptions& atlas);
 
-/// Of what writes or measures lightmaps.
+/// For commands that write or measure lightmaps.
 void add_sides_option(Command& command, AtlasOptions& atlas);
 
-/// Light from outside, and what lamps are like.
+/// Sky, sun, and properties of lamps.
 void add_light_options(Command& command, LightOptions& lights);
 
 void add_json_flag(Command& command, bool& json);
@@ -62,14 +62,14 @@ void add_directional_option(Command& command, Directional& directional);
 
 void add_device_option(Command& command, std::string& device);
 
-/// How much memory a bake may take [bytes].
+/// Memory limit of a bake [bytes].
 void add_memory_option(Command& command, std::uint64_t& bytes);
 
 void add_dump_option(Command& command, std::string& folder);
 
 void add_preview_option(Command& command, int& width);
 
-/// Who looks, and how finely.
+/// Camera and resolution.
 void add_picture_options(Command& command, int& camera, int& width);
 
 }  // namespace lumel

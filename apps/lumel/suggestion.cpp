@@ -36,7 +36,7 @@ std::string advice(const std::string& word, const std::vector<std::string>& know
                    const std::string& path)
 {
     const std::string meant = nearest_word(word, known);
-    return meant.empty() ? fmt::format("; {} --help lists what there is", path)
+    return meant.empty() ? fmt::format("; see {} --help", path)
                          : fmt::format("; did you mean {}?", meant);
 }
 

@@ -11,16 +11,16 @@ Command update_command()
 {
     const auto given = std::make_shared<UpdateArguments>();
     UpdateOptions& options = given->options;
-    Command command{.name = "update",
-                    .help = "Correct the lightmaps of a bake where its scene was edited"};
-    command.add({bake_argument(given->folder, "What lumel bake wrote, corrected in place"),
-                 {.names = "scene",
-                  .type = "FILE",
-                  .help = "The edited scene, a .gltf or .glb file",
-                  .target = &given->scene,
-                  .required = true}});
+    Command command{.name = "update", .help = "Update a bake after its scene was edited"};
+    command.add(
+        {bake_argument(given->folder, "Folder that lumel bake wrote; it is updated in place"),
+         {.names = "scene",
+          .type = "FILE",
+          .help = "Edited scene, a .gltf or .glb file",
+          .target = &given->scene,
+          .required = true}});
     command.add(kStopGroup, {{"--residual", "PERCENT",
-                              "Stop at this error of the correction, as a part of all light",
+                              "Stop at this error of the correction, relative to all light",
                               [&options](double percent) { options.residual = percent / 100.0; },
                               text_of(100.0 * options.residual), positive()}});
     add_light_options(command, options.lights);

@@ -33,18 +33,17 @@ void add_script_options(Command& command, ViewArguments& view)
 {
     command.add(
         kSessionGroup,
-        {{"--script", "FILE.txt", "File of commands that are played, see below", &view.run.script},
-         {"--headless", "", "Open no window: play the script alone", &view.headless},
-         {"--folder", "FOLDER", "Where the files of the script go", &view.run.folder,
-          "the current one"},
+        {{"--script", "FILE.txt", "Play the commands of this file, see below", &view.run.script},
+         {"--headless", "", "Open no window, only play the script", &view.headless},
+         {"--folder", "FOLDER", "Output folder of the script", &view.run.folder, "the current one"},
          {.names = "--movable",
           .type = "NAME",
-          .help = "Name of what may be moved, turned and deleted; may be repeated",
+          .help = "Object that may be moved, rotated or deleted, by name; repeatable",
           .target = &view.options.movable,
-          .default_value = "what is small beside the scene",
+          .default_value = "objects that are small relative to the scene",
           .repeatable = true},
-         {"--budget", "MS", "Milliseconds for the light of each frame", &view.options.budget_ms,
-          text_of(view.options.budget_ms), positive()}});
+         {"--budget", "MS", "Milliseconds per frame for updating the light",
+          &view.options.budget_ms, text_of(view.options.budget_ms), positive()}});
 }
 
 void add_light_of_session(Command& command, SessionOptions& options)
@@ -52,19 +51,19 @@ void add_light_of_session(Command& command, SessionOptions& options)
     command.add(
         kSessionGroup,
         {{"--solver", names_of_methods(),
-          "Show the light of this method first, before the first edit; see lumel methods",
+          "Show the light of this method until the first edit; see lumel methods",
           [&options](const std::string& id) {
               options.solver = SolverOptions{.method = method_of(id).defaults()};
           },
-          "none: links that are kept"},
-         {"--links", "N", "Rays that each lumel keeps: 4, 16, 64 or 256", &options.link_rays,
+          "none: stored links"},
+         {"--links", "N", "Rays stored per lumel: 4, 16, 64 or 256", &options.link_rays,
           text_of(options.link_rays), link_rays()},
          {"--residual", "PERCENT",
-          "Light left to bounce, as a part of all, at which light is at rest",
+          "Light has converged when the unreflected share falls below this",
           [&options](double percent) { options.residual = percent / 100.0; },
           text_of(100.0 * options.residual), positive()},
          {"--seed", "N", "Random seed", &options.seed, text_of(options.seed), whole(0, kMaxSeed)},
-         {"--animation", "N", "Animation of the file by its number, from 0", &options.animation,
+         {"--animation", "N", "Animation of the file, by number from 0", &options.animation,
           text_of(options.animation), whole(0, kMaxAnimations)}});
 }
 
@@ -75,7 +74,7 @@ Command view_command()
     const auto given = std::make_shared<ViewArguments>(ViewArguments{.run = {.folder = "."}});
     SessionOptions& options = given->options;
     Command command{.name = "view",
-                    .help = "Walk through a lit scene while things are moved and lamps dimmed",
+                    .help = "Interactive viewer: walk through a lit scene, move objects, dim lamps",
                     .footer = commands_text()};
     command.add({scene_argument(given->run.scene)});
     add_script_options(command, *given);

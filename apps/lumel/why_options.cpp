@@ -17,20 +17,19 @@ void add_place_options(Command& command, WhyOptions& options)
     };
     command.add("Point of the lightmap",
                 {{"--lumel", "U,V",
-                  "Point of the lightmap in TEXCOORD_1: 0,0 is its top left corner, 1,1 the bottom "
-                  "right one",
+                  "Point of the lightmap in TEXCOORD_1, from 0,0 (top left) to 1,1 (bottom right)",
                   [&options](std::array<double, 2> uv) {
                       options.place = {uv[0], uv[1]};
                   },
                   "", between(0.0, 1.0)},
                  {.names = "--texel",
                   .type = "X,Y",
-                  .help = "The same as column and row of a texel, from 0,0",
+                  .help = "Point of the lightmap as column and row of a texel, from 0,0",
                   .target = set_texel,
                   .check = whole(0, kLargestAtlas - 1),
                   .excludes = "--lumel"},
-                 {"--page", "N", "Of several pages of the lightmap the one that is meant",
-                  &options.page, text_of(options.page), whole(0, kMaxPages - 1)}});
+                 {"--page", "N", "Page of the lightmap that holds the point", &options.page,
+                  text_of(options.page), whole(0, kMaxPages - 1)}});
 }
 
 }  // namespace
@@ -39,12 +38,11 @@ Command why_command()
 {
     const auto given = std::make_shared<WhyArguments>();
     WhyOptions& options = given->options;
-    Command command{
-        .name = "why",
-        .help = "List what sends light to a point of a baked lightmap, and show it in why.png"};
+    Command command{.name = "why",
+                    .help = "List what lights a point of a baked lightmap, and draw it in why.png"};
     command.add({bake_argument(given->folder)});
     add_place_options(command, options);
-    command.add(kPictureGroup, {{"--width", "N", "Width of why.png in pixels; 0: none",
+    command.add(kPictureGroup, {{"--width", "N", "Width of why.png in pixels; 0: no image",
                                  &options.width, text_of(options.width), whole(0, kLargestAtlas)}});
     add_device_option(command, options.device);
     add_talk_options(command, given->talk);

@@ -96,9 +96,9 @@ constexpr float kPatchRadius = 6.0f;
 constexpr MethodInfo kMethods[] = {
     entry<LinkRadiosity, LinksOptions>(
         {.id = "links",
-         .title = "Gathering over links that are traced once",
+         .title = "Gathering over links, traced once",
          .shots = "rays per lumel",
-         .advice = "the default: any scene with diffuse surfaces, buildings above all",
+         .advice = "the default: any scene with diffuse surfaces, especially buildings",
          .on_device = false,
          .finds_lights = true,
          .states_dark_error = true,
@@ -109,7 +109,7 @@ constexpr MethodInfo kMethods[] = {
          .title = "Stochastic radiosity by perspective ray bundles",
          .paper = "[BJ04], [BSS05]",
          .shots = "shooters",
-         .advice = "small rooms of diffuse surfaces; the method that the others are compared with",
+         .advice = "small diffuse rooms; the method that the others are compared with",
          .near_radius = NearFieldOptions{}.radius,
          .options = kStochasticOptions}),
     entry<GlossyIllumination, GlossyOptions>(
@@ -117,7 +117,7 @@ constexpr MethodInfo kMethods[] = {
          .title = "Stochastic glossy global illumination",
          .paper = "[BSS05], [NNS99]",
          .shots = "shooters",
-         .advice = "light that metals and polished surfaces pass on; noisier than the default",
+         .advice = "light reflected by metals and polished surfaces; noisier than the default",
          .materials = MaterialModel::glossy,
          .near_radius = kGlossyRadius,
          .options = kGlossyOptions}),
@@ -126,16 +126,14 @@ constexpr MethodInfo kMethods[] = {
          .title = "Global directions with stochastic depth buffering",
          .paper = "[TN11]",
          .shots = "directions",
-         .advice = "open scenes of diffuse surfaces under a sky",
+         .advice = "open diffuse scenes under a sky",
          .options = kDirectionsOptions}),
     entry<ProgressiveRadiosity, ProgressiveOptions>(
         {.id = "progressive",
          .title = "Progressive refinement radiosity",
          .paper = "[CCWG88], [Hoef13]",
          .shots = "shooters",
-         .advice =
-             "small scenes of diffuse surfaces; the basis of animation, corrected when objects "
-             "move",
+         .advice = "small diffuse scenes; the basis of animation, corrected when objects move",
          .near_radius = kPatchRadius,
          .options = kProgressiveOptions}),
     entry<GatherRadiosity, GatherOptions>(
@@ -143,7 +141,7 @@ constexpr MethodInfo kMethods[] = {
          .title = "Gather radiosity by hemicubes on every lumel",
          .paper = "[CG85], [Hoef13]",
          .shots = "hemicubes",
-         .advice = "an independent reference for the others; slow, --hemicube 64 is enough",
+         .advice = "an independent reference for the others; slow",
          .options = kGatherOptions}),
     entry<MatrixRadiosity, MatrixOptions>(
         {.id = "matrix",
@@ -151,7 +149,7 @@ constexpr MethodInfo kMethods[] = {
          .paper = "[SF17]",
          .shots = "rays per lumel",
          .advice = "one scene under many lights: lumel relight takes milliseconds; small indirect "
-                   "detail is lost",
+                   "details are lost",
          .near_radius = kPatchRadius,
          .near_surroundings = true,
          .can_keep_sources = true,

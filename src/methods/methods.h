@@ -26,11 +26,11 @@ namespace lumel {
 struct MethodInfo {
     const char* id;
     const char* title;
-    const char* paper = "";  ///< keys of docs/references.md
-    const char* shots;       ///< what SolverState::shots counts: "shooters"
-    const char* advice;      ///< when to use it
-    MaterialModel materials = MaterialModel::diffuse;  ///< what it reads of them
-    float near_radius = 0.0f;        ///< NearFieldOptions::radius that suits it; 0: no near field
+    const char* paper = "";                            ///< keys of docs/references.md
+    const char* shots;                                 ///< unit of SolverState::shots: "shooters"
+    const char* advice;                                ///< when to use it
+    MaterialModel materials = MaterialModel::diffuse;  ///< material model that it solves
+    float near_radius = 0.0f;        ///< NearFieldOptions::radius; 0: no near field
     bool near_surroundings = false;  ///< NearFieldOptions::surroundings
     bool on_device = true;           ///< needs the scene on the GPU
     bool finds_lights = false;       ///< samples sky and lamps itself, and bakes direct light alone
@@ -44,41 +44,42 @@ struct MethodInfo {
     MethodOptions (*defaults)() = nullptr;
     std::unique_ptr<Solver> (*make)(const SolverInputs& inputs,
                                     const SolverOptions& options) = nullptr;
-    /// Device memory of the solver [bytes], roughly, and without the world.
+    /// GPU memory of the solver, roughly, without the world [bytes].
     std::uint64_t (*device_bytes)(const SolveSize& size, const MethodOptions& options) = nullptr;
 
     /// Null if it does not read an option of that name.
     const OptionInfo* option(std::string_view name) const;
 };
 
-/// In the order in which they are listed, the default first.
+/// In listing order, the default first.
 std::span<const MethodInfo> methods();
 
-/// The method of that name. Throws Error{input} that lists what there is.
+/// Throws Error{input} with the known names if there is none.
 const MethodInfo& method_of(std::string_view id);
 const MethodInfo& method_of(const MethodOptions& options);
 
-/// The names of all options that methods read, each once, and the methods that read it.
+/// An option, and the methods that read it.
 struct SharedOption {
-    const OptionInfo* info;  ///< of the first method that reads it
+    const OptionInfo* info;  ///< entry of the first method that reads it
     std::vector<const MethodInfo*> readers;
 };
 std::vector<SharedOption> options_of_methods();
 
-/// The defaults of a method but for what was given, by names of options. Throws Error{input} for
-/// what the method does not read, what does nothing beside the others, and values out of range.
+/// The defaults of a method, changed by values of options by name. Throws Error{input} for options
+/// that the method does not read or that have no effect beside the others, and for values out of
+/// range.
 MethodOptions method_options(std::string_view id, const std::map<std::string, std::string>& given);
 
-/// A method by name with what was given of its options, until all of it is known.
+/// A method by name, and values of its options before they are checked.
 struct GivenMethod {
     std::string id = methods().front().id;
     std::map<std::string, std::string> values;  ///< by names of options
 
-    /// Throws Error{input} for what the method does not read.
+    /// Throws Error{input} as method_options() does.
     MethodOptions options() const { return method_options(id, values); }
 };
 
-/// Throws Error{input} for a limit that the method knows nothing of.
+/// Throws Error{input} for a limit that the method does not support.
 void check_limits(const SolverOptions& options);
 
 /// The value of an option that the method reads.
@@ -92,22 +93,22 @@ bool set_option(MethodOptions& method, const OptionInfo& option, const std::stri
 /// range.
 bool set_option(MethodOptions& method, std::string_view name, const std::string& value);
 
-/// Does the solver find the light of emissive surfaces apart, and so returns SolverInputs::parts?
-/// lumels, known: as make_solver takes them.
+/// True if the solver samples emissive surfaces separately and returns SolverInputs::parts. lumels,
+/// known: those of SolverInputs.
 bool finds_emitted(const MethodOptions& method, const Lumels& lumels,
                    std::span<const glm::vec3> known);
 
-/// Does the solver find the sky's light itself, so that it is not to be among the emission?
+/// True if the solver samples the sky itself; the sky is then not part of the emission.
 bool gathers_sky(const MethodOptions& method);
 
-/// Does it solve close pairs in a table? Some methods and schemes have none.
+/// True if the method and its scheme solve close pairs by a table.
 bool has_near_field(const MethodOptions& method);
 
-/// The near field that suits the options: finer where a smaller error is requested.
+/// Options of the near field: more samples for a smaller target error.
 NearFieldOptions near_field_options(const SolverOptions& options);
 
 /// Builds it; empty for methods and schemes without a near field. radius:
-/// NearFieldOptions::radius; 0: as suits the method.
+/// NearFieldOptions::radius; 0: the radius of the method.
 NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                          const SolverOptions& options, float radius = 0.0f);
 
@@ -115,11 +116,11 @@ NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels&
 std::uint64_t near_pairs_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                              const SolverOptions& options);
 
-/// Device memory [bytes] that make_solver()'s solver takes, roughly, and without the world.
+/// GPU memory of the solver that make_solver() returns, roughly, without the world [bytes].
 std::uint64_t solver_bytes(const SolveSize& size, const SolverOptions& options);
 
-/// Steps until a limit of the options is met, that of time not before there is any light, or
-/// `go_on` returns false. Returns true unless go_on ended it.
+/// Steps until a limit of the options is met or `go_on` returns false. The time limit waits for the
+/// first light. Returns true unless go_on ended it.
 bool solve(Solver& solver, const SolverOptions& options,
            const std::function<bool(const SolverState&)>& go_on = {});
 

@@ -25,8 +25,8 @@ struct SolverOptions {
     std::uint64_t max_shots = 0;     ///< 0: no limit
     double max_seconds = 0.0;        ///< 0: no limit. Of a bake: from its beginning
     double target_error = 0.02;      ///< estimated relative error to stop at, 0: never
-    double target_dark_error = 0.0;  ///< the same of dark lumels, see SolverState, 0: never
-    std::uint64_t max_bytes = 0;     ///< of the host that links may take, 0: no limit
+    double target_dark_error = 0.0;  ///< estimated relative error of dark lumels, 0: never
+    std::uint64_t max_bytes = 0;     ///< host memory that links may take, 0: no limit
 
     SolveLimits limits() const
     {
@@ -34,20 +34,20 @@ struct SolverOptions {
     }
 };
 
-// What most methods have, and what stands for it in the others.
+// Options that most methods have, with a substitute for the others.
 
 inline std::uint32_t seed_of(const MethodOptions& method)
 {
     return std::visit([](const auto& options) { return options.seed; }, method);
 }
 
-/// SampleRule::area of methods that have no other.
+/// SampleRule::area for methods without this option.
 SampleRule rule_of(const MethodOptions& method);
 
 /// Common defaults for methods without views from lumels.
 ViewOptions views_of(const MethodOptions& method);
 
-/// K, shooters of one step; 0 of methods without shooters.
+/// K, shooters per step; 0 for methods without shooters.
 int batch_of(const MethodOptions& method);
 
 /// True for the papers' iteration, which has no near field.

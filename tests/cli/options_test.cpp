@@ -19,7 +19,7 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
 {
     const std::string scene = own_scene("cornell-box.gltf");
     const BadLine lines[] = {
-        {{}, {"a command is needed", "--help"}},
+        {{}, {"no command given", "--help"}},
         {{"frobnicate"}, {"frobnicate", "--help"}},
         {{"bak"}, {"did you mean bake?"}},
         {{"comapre"}, {"did you mean compare?"}},

@@ -16,16 +16,14 @@ inline constexpr OptionInfo kLinksOptions[] = {
     seed_option(member<&LinksOptions::seed>),
     sampling_option(member<&LinksOptions::rule>),
     {.name = "filter",
-     .help =
-         "Average lumels with those around them that look alike; without it the result is exact "
-         "in expectation",
+     .help = "Average lumels with similar neighbours; without it the result is noisier, but exact "
+             "in expectation",
      .words = kFilterSwitch,
      .member = member<&LinksOptions::filter>},
     {.name = "rays",
-     .help =
-         "What casts the rays: the host, ray queries of the device (VK_KHR_ray_query), or "
-         "drawings by the device for rays that leave lumels; auto: the host on a device that is "
-         "a CPU, else queries where the device has them, else drawings",
+     .help = "Ray tracing by the CPU (host), by ray queries of the GPU (query, VK_KHR_ray_query), "
+             "or by rasterisation on the GPU for rays that leave lumels (raster); auto: host if "
+             "the Vulkan device is a CPU, else query if the GPU supports it, else raster",
      .words = kRayCasters,
      .member = member<&LinksOptions::rays>},
 };

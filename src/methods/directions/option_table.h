@@ -21,20 +21,19 @@ inline constexpr OptionInfo kDirectionsOptions[] = {
     sampling_option(member<&DirectionsOptions::rule>),
     batch_option(member<&DirectionsOptions::batch>, kMaxDirectionBatch),
     {.name = "layers",
-     .help =
-         "What is kept of surfaces behind one another: all of them, at once (list) or one after "
-         "another (peel), or one a pixel at random (stochastic)",
+     .help = "How overlapping surfaces are stored: all in one pass (list), all in several passes "
+             "(peel), or one per pixel at random (stochastic)",
      .words = kLayers,
      .member = member<&DirectionsOptions::layers>},
     {.name = "lookups",
-     .help = "Side of the square of pixels read among stochastic layers",
+     .help = "Side in pixels of the square that is read from stochastic layers",
      .words = kLookups,
      .member = member<&DirectionsOptions::lookups>,
      .with = "layers",
      .with_value = "stochastic"},
     {.name = "slabs",
-     .help = "Slabs that each direction is cut into, so that fewer surfaces compete for a pixel of "
-             "stochastic layers; auto: as many as the overdraw requires",
+     .help = "Slabs per direction; with more, fewer surfaces compete for a pixel of stochastic "
+             "layers; auto: as many as the overdraw requires",
      .words = kAutomatic,
      .lowest = 1,
      .highest = kMaxSlabs,
@@ -42,7 +41,7 @@ inline constexpr OptionInfo kDirectionsOptions[] = {
      .with = "layers",
      .with_value = "stochastic"},
     {.name = "map-side",
-     .help = "Side of a direction's maps in pixels; auto: as suits the lumels",
+     .help = "Side of a direction's maps in pixels; auto: from the size of lumels",
      .words = kAutomatic,
      .lowest = kMinMapSide,
      .highest = kMaxMapSide,

@@ -14,12 +14,12 @@ struct DirectionsOptions {
     int batch = 16;  ///< K, directions at a time
     SampleRule rule = SampleRule::area;
     IterationOptions iteration;
-    Layers layers = Layers::list;  ///< of illumination maps
+    Layers layers = Layers::list;  ///< storage in illumination maps
     int lookups = 3;               ///< with Layers::stochastic: 1, 3 or 5 pixels wide and high
     /// With Layers::stochastic: slabs that a direction is cut into; 0: as many as the overdraw
     /// requires, see IlluminationMaps.
     std::uint32_t slabs = 0;
-    int map_side = 0;  ///< of an illumination map [pixels], 0: as suits the lumels
+    int map_side = 0;  ///< side of an illumination map [pixels], 0: from the size of lumels
     bool sky = true;   ///< with Scheme::paper: gathers the world's sky
 };
 

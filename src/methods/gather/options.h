@@ -9,8 +9,10 @@ namespace lumel {
 
 struct GatherOptions {
     std::uint32_t seed = 1;
-    int batch = 16;      ///< K, hemicubes at a time
-    int hemicube = 256;  ///< side of the front face [pixels], see EyeViews
+    int batch = 16;  ///< K, hemicubes at a time
+    /// Side of the front face [pixels], see EyeViews. Pixels have four samples, and points move
+    /// from bounce to bounce, so few pixels are enough.
+    int hemicube = 32;
     SampleRule rule = SampleRule::area;
 };
 

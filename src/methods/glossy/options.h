@@ -12,7 +12,7 @@ namespace lumel {
 struct GlossyOptions {
     std::uint32_t seed = 1;
     ViewOptions views{.projection = Projection::hemicube, .hemicube = 256, .batch = 16};
-    SampleRule rule = SampleRule::area;  ///< of receivers
+    SampleRule rule = SampleRule::area;  ///< for receivers
     Scheme scheme = Scheme::phased;
     /// With Scheme::paper: squares of 2^merge texels a side shoot as one from their common centre,
     /// as far as they belong to one chart, [BSS05] section 5. 0: each texel alone.

@@ -8,7 +8,7 @@
 namespace lumel {
 
 struct ProgressiveOptions {
-    std::uint32_t seed = 1;  ///< of the near field: patches shoot from fixed points
+    std::uint32_t seed = 1;  ///< for the near field; patches shoot from fixed points
     ViewOptions views{.projection = Projection::hemicube, .hemicube = 256, .batch = 16};
 };
 

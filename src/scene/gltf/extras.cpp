@@ -1,5 +1,7 @@
 #include "scene/gltf/extras.h"
 
+#include "base/json/json_view.h"
+
 namespace lumel {
 namespace {
 

@@ -1,9 +1,9 @@
 #pragma once
 // Lumel's members of extras.
 
-#include "base/json/json_view.h"
-
 namespace lumel {
+
+class JsonView;
 
 /// Maximum pages of a lightmap.
 inline constexpr int kMaxPages = 256;

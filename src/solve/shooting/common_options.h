@@ -31,7 +31,8 @@ constexpr OptionInfo seed_option(const MemberAccess& seed)
 constexpr OptionInfo scheme_option(const MemberAccess& scheme)
 {
     return {.name = "scheme",
-            .help = "Iteration scheme: phased, with exact near pairs, or the papers'",
+            .help = "Iteration scheme: phases with exact near pairs (phased), or that of the "
+                    "papers (paper)",
             .words = kSchemes,
             .member = scheme};
 }
@@ -39,7 +40,7 @@ constexpr OptionInfo scheme_option(const MemberAccess& scheme)
 constexpr OptionInfo sampling_option(const MemberAccess& rule)
 {
     return {.name = "sampling",
-            .help = "Receive over the covered area of a lumel or at its centre",
+            .help = "Receive over the covered area of a lumel (area) or at its centre",
             .words = kSampleRules,
             .member = rule};
 }
@@ -56,20 +57,23 @@ constexpr OptionInfo batch_option(const MemberAccess& batch, std::int64_t highes
 
 constexpr OptionInfo projection_option(const MemberAccess& projection)
 {
-    return {.name = "projection",
-            .help = "Draw what shooters see on five faces (hemicube) or on one disc",
-            .words = kProjections,
-            .member = projection};
+    return {
+        .name = "projection",
+        .help =
+            "Rasterise the view of a shooter on five faces (hemicube) or on one disc (hemisphere)",
+        .words = kProjections,
+        .member = projection};
 }
 
 constexpr OptionInfo hemicube_option(const MemberAccess& side)
 {
-    return {.name = "hemicube",
-            .help =
-                "Side of a hemicube's front face in pixels; a hemisphere's disc is twice as wide",
-            .lowest = kMinHemicube,
-            .highest = kMaxHemicube,
-            .member = side};
+    return {
+        .name = "hemicube",
+        .help =
+            "Front face of a hemicube, side in pixels; the disc of a hemisphere is twice as wide",
+        .lowest = kMinHemicube,
+        .highest = kMaxHemicube,
+        .member = side};
 }
 
 }  // namespace lumel
