@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "scene/gltf/extras.h"
+
 namespace lumel {
 namespace {
 

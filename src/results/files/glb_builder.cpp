@@ -155,14 +155,6 @@ std::set<std::size_t> images_of(const Json& texture)
     return images;
 }
 
-Json& extras_of(Json& part)
-{
-    Json& extras = part["extras"];
-    if (!extras.is_null() && !extras.is_object())
-        extras = Json{{"value", std::move(extras)}};
-    return extras;
-}
-
 GlbBuilder::GlbBuilder(const GltfDocument& document) : json(document.json), document_(document) {}
 
 void GlbBuilder::release()

@@ -68,9 +68,6 @@ std::set<std::size_t> used_accessors(const Json& json);
 /// Images of a texture, its own and those of extensions.
 std::set<std::size_t> images_of(const Json& texture);
 
-/// The extras of a part of a glTF as an object; other extras become its member "value".
-Json& extras_of(Json& part);
-
 /// Calls visit(object) for `value` and every object inside it, but not inside extras.
 template <class Value, class Visit>
 void for_objects(Value& value, const Visit& visit)

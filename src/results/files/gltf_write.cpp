@@ -12,6 +12,7 @@
 #include "results/files/baked_meshes.h"
 #include "results/files/glb_builder.h"
 #include "scene/gltf/baked_lights.h"
+#include "scene/gltf/extras.h"
 
 namespace lumel {
 namespace {
