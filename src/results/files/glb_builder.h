@@ -48,8 +48,8 @@ public:
 
 private:
     void unpack_images();
-    void free_accessors();
-    void free_views();
+    std::set<std::size_t> free_elements(const char* name, const Json& empty,
+                                        std::set<std::size_t> (*used_in)(const Json&));
     void copy_views();
     void embed_images();
     std::size_t append(std::span<const std::uint8_t> bytes);
