@@ -1,10 +1,10 @@
 #include "links/live/live_links.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "atlas/near/still_part.h"
+#include "base/core/clock.h"
 #include "base/core/error.h"
 #include "base/core/parallel.h"
 #include "links/live/link_relighter.h"
@@ -430,14 +430,10 @@ void LiveLinks::sweep()
 
 LiveLinksState LiveLinks::advance(double budget_ms)
 {
-    using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    const auto spent = [&] {
-        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    };
     while (edited_ || is_under_way() || !state_.at_rest) {
         work();
-        if (!(spent() < budget_ms))
+        if (!(ms_since(start) < budget_ms))
             break;
     }
     state_.under_way = is_under_way();

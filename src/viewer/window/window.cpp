@@ -14,6 +14,7 @@
 #include <glm/gtc/constants.hpp>
 #include <imgui.h>
 
+#include "base/core/clock.h"
 #include "base/core/error.h"
 #include "base/core/log.h"
 #include "base/images/image_files.h"
@@ -23,7 +24,6 @@
 #include "results/preview/view.h"
 #include "scene/gltf/document.h"
 #include "scene/values/animation.h"
-#include "viewer/session/clock.h"
 #include "viewer/session/player.h"
 #include "viewer/session/save.h"
 #include "viewer/window/controls.h"
