@@ -9,6 +9,7 @@
 #include "base/core/error.h"
 #include "base/core/number.h"
 #include "base/json/json_view.h"
+#include "viewer/session/session.h"
 #include "viewer/session/solve_order.h"
 
 namespace lumel {
@@ -171,8 +172,7 @@ bool is_word_for(const CommandForm& form, const std::string& word)
     case ArgumentKind::off:
         return word == "off";
     case ArgumentKind::mode:
-        return word == "lit" || word == "irradiance" || word == "lumels" || word == "links" ||
-               word == "error";
+        return std::find(kViewModes.begin(), kViewModes.end(), word) != kViewModes.end();
     case ArgumentKind::png:
         return is_file_name(word, ".png");
     case ArgumentKind::json:
