@@ -46,7 +46,7 @@ Bytes read_file(const std::string& path, const std::string& place)
     return bytes;
 }
 
-void check_format(const std::string& path, std::uint32_t format, std::uint32_t read)
+void check_format(const std::string& path, std::uint64_t format, std::uint64_t read)
 {
     if (format != read)
         throw Error(ErrorKind::input, path,
