@@ -9,7 +9,6 @@
 #include "atlas/finish/finish.h"
 #include "base/core/luminance.h"
 #include "base/images/image_files.h"
-#include "methods/methods.h"
 #include "raster/eyes/eye_views.h"
 #include "raster/eyes/probe.h"
 #include "raster/parallel/illumination_maps.h"

@@ -1,7 +1,6 @@
 #include "scene/load/gltf_attributes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "scene/gltf/accessor.h"

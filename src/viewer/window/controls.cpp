@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <GLFW/glfw3.h>
 #include <glm/trigonometric.hpp>

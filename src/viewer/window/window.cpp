@@ -21,7 +21,6 @@
 #include "jobs/solve/setting.h"
 #include "jobs/solve/stages.h"
 #include "results/files/folder.h"
-#include "results/preview/view.h"
 #include "scene/gltf/document.h"
 #include "scene/values/animation.h"
 #include "viewer/session/player.h"
