@@ -141,12 +141,13 @@ std::string zsh_text(const std::string& text)
 std::string zsh_values(const Command& program, const Values& values)
 {
     if (values.commands)
-        return "(" + spaced(names_of_commands(program)) + ")";
+        return fmt::format("({})", spaced(names_of_commands(program)));
     if (values.files)
-        return values.words.empty() ? "_files"
-                                    : "{compadd -- " + spaced(values.words) + "; _files}";
+        return values.words.empty()
+                   ? "_files"
+                   : fmt::format("{{compadd -- {}; _files}}", spaced(values.words));
     if (!values.words.empty())
-        return "(" + spaced(values.words) + ")";
+        return fmt::format("({})", spaced(values.words));
     return values.folders ? "_files -/" : " ";
 }
 

@@ -13,11 +13,9 @@ namespace {
 Option option_of(GivenMethod& given, const OptionInfo& info, const std::string& default_value)
 {
     const std::string name = info.name;
-    return {.names = "--" + name,
-            .type = info.type(),
-            .help = info.help,
-            .default_value = default_value,
-            .target = [&given, name](const std::string& value) { given.values[name] = value; }};
+    return {"--" + name, info.type(), info.help,
+            [&given, name](const std::string& value) { given.values[name] = value; },
+            default_value};
 }
 
 std::string default_of(const MethodInfo& method, const std::string& option)
@@ -41,10 +39,7 @@ bool is_omitted(const std::vector<OmittedOption>& omitted, std::string_view opti
 /// "links|stochastic|…"
 std::string listed(const std::vector<std::string_view>& ids)
 {
-    std::string list;
-    for (const std::string_view id : ids)
-        list += (list.empty() ? "" : "|") + std::string(id);
-    return list;
+    return fmt::to_string(fmt::join(ids, "|"));
 }
 
 std::vector<std::string_view> all_methods()
@@ -59,7 +54,7 @@ std::vector<std::string_view> all_methods()
 Check one_of(const std::vector<std::string_view>& ids)
 {
     return [ids](const std::string& id) -> std::string {
-        return among(ids, id) ? "" : fmt::format("{} not in {{{}}}", id, fmt::join(ids, ","));
+        return among(ids, id) ? "" : id + " not in {" + fmt::to_string(fmt::join(ids, ",")) + "}";
     };
 }
 
@@ -82,11 +77,7 @@ void add_methods(Command& command, GivenMethod& given, const std::vector<std::st
                  const std::vector<OmittedOption>& omitted)
 {
     const std::vector<std::string_view> ids = some.empty() ? all_methods() : some;
-    Option solver{.names = "--solver",
-                  .type = listed(ids),
-                  .help = "Method, see lumel methods",
-                  .default_value = given.id,
-                  .target = &given.id};
+    Option solver{"--solver", listed(ids), "Method, see lumel methods", &given.id, given.id};
     if (!some.empty())
         solver.check = one_of(ids);
     command.add(kMethodGroup, {solver});

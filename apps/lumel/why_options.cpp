@@ -15,29 +15,22 @@ void add_place_options(Command& command, WhyOptions& options)
     const auto set_texel = [&options](std::array<double, 2> at) {
         options.texel = glm::ivec2(int(at[0]), int(at[1]));
     };
-    command.add(
-        "Point of the lightmap",
-        {{.names = "--lumel",
-          .type = "U,V",
-          .help = "Point of the lightmap in TEXCOORD_1: 0,0 is its top left corner, 1,1 the bottom "
+    command.add("Point of the lightmap",
+                {{"--lumel", "U,V",
+                  "Point of the lightmap in TEXCOORD_1: 0,0 is its top left corner, 1,1 the bottom "
                   "right one",
-          .target =
-              [&options](std::array<double, 2> uv) {
-                  options.place = {uv[0], uv[1]};
-              },
-          .check = between(0.0, 1.0)},
-         {.names = "--texel",
-          .type = "X,Y",
-          .help = "The same as column and row of a texel, from 0,0",
-          .target = set_texel,
-          .check = whole(0, kLargestAtlas - 1),
-          .excludes = "--lumel"},
-         {.names = "--page",
-          .type = "N",
-          .help = "Of several pages of the lightmap the one that is meant",
-          .default_value = text_of(options.page),
-          .target = &options.page,
-          .check = whole(0, kMaxPages - 1)}});
+                  [&options](std::array<double, 2> uv) {
+                      options.place = {uv[0], uv[1]};
+                  },
+                  "", between(0.0, 1.0)},
+                 {.names = "--texel",
+                  .type = "X,Y",
+                  .help = "The same as column and row of a texel, from 0,0",
+                  .target = set_texel,
+                  .check = whole(0, kLargestAtlas - 1),
+                  .excludes = "--lumel"},
+                 {"--page", "N", "Of several pages of the lightmap the one that is meant",
+                  &options.page, text_of(options.page), whole(0, kMaxPages - 1)}});
 }
 
 }  // namespace
@@ -51,12 +44,8 @@ Command why_command()
         .help = "List what sends light to a point of a baked lightmap, and show it in why.png"};
     command.add({bake_argument(given->folder)});
     add_place_options(command, options);
-    command.add(kPictureGroup, {{.names = "--width",
-                                 .type = "N",
-                                 .help = "Width of why.png in pixels; 0: none",
-                                 .default_value = text_of(options.width),
-                                 .target = &options.width,
-                                 .check = whole(0, kLargestAtlas)}});
+    command.add(kPictureGroup, {{"--width", "N", "Width of why.png in pixels; 0: none",
+                                 &options.width, text_of(options.width), whole(0, kLargestAtlas)}});
     add_device_option(command, options.device);
     add_talk_options(command, given->talk);
     command.arguments = [given](const Command& parsed) -> Arguments {

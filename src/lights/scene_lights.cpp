@@ -82,7 +82,7 @@ void SceneLights::move(Lights& lights, std::size_t s, const LampPlace& place) co
     if (source.lights.size() != 1)
         refuse(is_sky ? "is the sky, which has only a \"turn\""
                : source.lights.empty()
-                   ? "is no lamp: only point, spot and directional lights can be moved"
+                   ? "is not a lamp: only point, spot and directional lights can be moved"
                    : "is the name of several lamps: give each a name of its "
                      "own to move it");
     PunctualLight& lamp = lights.lamps[source.lights.front()];

@@ -251,7 +251,8 @@ TEST(KeepLinks, RefusesWhatItCannotKeepOrLight)
     expect_one_sentence(fails({{"lamp", 1}}), 2, {"states.json", "\"a\"", "\"lamp\"", "\"bulb\""});
     expect_one_sentence(fails({{"bulb", {{"turn", 10}}}}), 2, {"\"bulb\"", "turn"});
     expect_one_sentence(fails({{"sky", {{"position", {1, 2, 3}}}}}), 2, {"\"sky\"", "turn"});
-    expect_one_sentence(fails({{"light", {{"position", {1, 2, 3}}}}}), 2, {"\"light\"", "no lamp"});
+    expect_one_sentence(fails({{"light", {{"position", {1, 2, 3}}}}}), 2,
+                        {"\"light\"", "not a lamp"});
 
     const std::string links = bytes_of(folder + "/scene.lumellinks");
     const auto expect_refused = [&](const std::string& bytes,

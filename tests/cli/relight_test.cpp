@@ -175,7 +175,7 @@ TEST(Relight, RefusesWhatItCannotLight)
     expect_one_sentence(bake.fails(R"({"states": [{"name": "a", "light": 1}]})"), 2, {"\"light\""});
     expect_one_sentence(
         bake.fails(R"({"states": [{"name": "a", "lights": {"light": {"position": [1, 2, 3]}}}]})"),
-        2, {"\"light\"", "no lamp"});
+        2, {"\"light\"", "not a lamp"});
     expect_one_sentence(
         bake.fails(R"({"states": [{"name": "a", "lights": {"light": {"azimuth": 10}}}]})"), 2,
         {"/lights/light", "elevation"});

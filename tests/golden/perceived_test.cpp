@@ -15,12 +15,11 @@ Picture ramp(int square_at = 20, int brighter = 0, int noise = 0)
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             const bool inside = x >= square_at && x < square_at + 16 && y >= 20 && y < 36;
-            for (int c = 0; c < 3; ++c) {
-                random = random * 1664525u + 1013904223u;
-                const int off = noise > 0 ? int(random >> 16) % (2 * noise + 1) - noise : 0;
-                picture.rgb.push_back(
-                    static_cast<unsigned char>((inside ? 60 : 100 + x) + brighter + off));
-            }
+            random = random * 1664525u + 1013904223u;
+            const int off = noise > 0 ? int(random >> 16) % (2 * noise + 1) - noise : 0;
+            picture.rgb.insert(
+                picture.rgb.end(), 3,
+                static_cast<unsigned char>((inside ? 60 : 100 + x) + brighter + off));
         }
     return picture;
 }

@@ -75,7 +75,7 @@ Prepared::Prepared(Scene given, const LayOut& lay_out, const Bury& bury,
 {
     if (lumels.lumels.empty())
         throw Error(ErrorKind::input, scene.path,
-                    "has no surface that light could fall on: nothing is drawn, or all of it is "
+                    "has no surface that can receive light: nothing is drawn, or all of it is "
                     "cut out");
     open = bury ? bury(scene, rays, lumels)
                 : mark_buried(scene, rays, lumels, {}, part_of(progress, kLifted, 1.0));

@@ -29,7 +29,7 @@ void check_poses(const Scene& start, const Animation& animation, int frames, dou
                     "is stretched by the animation; objects can be rotated and moved, but not "
                     "stretched");
             if (!(glm::length(glm::dvec3(place[3])) <= kFarthest))
-                throw Error(ErrorKind::input, at, "is too far away to be computed");
+                throw Error(ErrorKind::input, at, "is too far out to be computed");
         }
 }
 

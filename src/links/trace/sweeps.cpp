@@ -158,8 +158,8 @@ private:
             const double pivot = m[k * n + k];
             if (!(pivot > kSingular))
                 throw Error(ErrorKind::input, "albedo 1",
-                            "in a closed room: light without absorption grows without bound; make "
-                            "some surface darker");
+                            "in a closed room: light that is never absorbed grows without bound; "
+                            "make some surface darker");
             m[k * n + k] = 1.0;
             for (std::size_t j = 0; j < n; ++j)
                 m[k * n + j] /= pivot;
