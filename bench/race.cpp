@@ -3,7 +3,6 @@
 
 #include "bench/modes.h"
 
-#include <cstdio>
 #include <optional>
 
 #include <fmt/core.h>

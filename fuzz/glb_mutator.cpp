@@ -1,7 +1,6 @@
 // Changes a .glb by its chunks, and states their sizes anew; a .gltf as JSON.
 
 #include <algorithm>
-#include <cstring>
 
 #include "base/core/error.h"
 #include "mutate.h"

@@ -1,7 +1,6 @@
 // Changes the contents of scene.lumelmat or scene.lumellinks, and states their size and fingerprint
 // anew.
 
-#include <algorithm>
 #include <cstring>
 
 #include "base/core/fingerprint.h"

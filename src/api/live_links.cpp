@@ -1,13 +1,13 @@
 #include "links/live/live_links.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "api/scene.h"
 #include "api/translate.h"
 #include "api/values.h"
 #include "atlas/finish/finish.h"
+#include "base/core/clock.h"
 #include "base/core/frame.h"
 #include "scene/values/geometry_checks.h"
 
@@ -157,17 +157,14 @@ void LiveLinks::set_color(const std::string& material, const Vec3& color)
 
 LiveLinksState LiveLinks::update(double budget_ms)
 {
-    using Clock = std::chrono::steady_clock;
     return translated([&] {
         const Clock::time_point start = Clock::now();
         const lumel::LiveLinksState state = impl_->live.advance(budget_ms);
-        impl_->state = {
-            .residual = state.residual,
-            .dark_residual = state.dark_residual,
-            .under_way = state.under_way,
-            .at_rest = state.at_rest,
-            .milliseconds =
-                std::chrono::duration<double, std::milli>(Clock::now() - start).count()};
+        impl_->state = {.residual = state.residual,
+                        .dark_residual = state.dark_residual,
+                        .under_way = state.under_way,
+                        .at_rest = state.at_rest,
+                        .milliseconds = ms_since(start)};
         return impl_->state;
     });
 }

@@ -19,7 +19,6 @@
 #include "truth/path_tracer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 

@@ -8,10 +8,10 @@
 #include <tbb/global_control.h>
 
 #include "../support/box_lumels.h"
+#include "../support/closed_forms.h"
 #include "../support/temporary_folder.h"
 #include "base/core/state_bytes.h"
 #include "closed_room.h"
-#include "truth/closed_forms.h"
 #include "truth/reference.h"
 
 namespace lumel {

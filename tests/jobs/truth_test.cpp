@@ -1,8 +1,8 @@
 // The solver against what is known exactly.
 
 #include "../support/box_lumels.h"
+#include "../support/closed_forms.h"
 #include "solved.h"
-#include "truth/closed_forms.h"
 
 namespace lumel {
 namespace {

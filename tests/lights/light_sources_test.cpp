@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/closed_forms.h"
 #include "../support/lamps.h"
 #include "../support/quadrature.h"
 #include "lit_point.h"
-#include "truth/closed_forms.h"
 
 namespace lumel {
 namespace {

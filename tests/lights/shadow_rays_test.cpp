@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/closed_forms.h"
 #include "lights/shadow_rays.h"
 #include "lights/source_estimate.h"
 #include "lit_point.h"
 #include "rays/cast/ray_caster.h"
 #include "rays/cast/ray_scene.h"
-#include "truth/closed_forms.h"
 
 namespace lumel {
 namespace {

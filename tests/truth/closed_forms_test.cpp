@@ -1,6 +1,6 @@
 // Published numbers, and the sums that must close.
 
-#include "truth/closed_forms.h"
+#include "../support/closed_forms.h"
 
 #include <cmath>
 #include <numbers>

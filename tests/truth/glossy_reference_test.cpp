@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "../support/box_lumels.h"
+#include "../support/closed_forms.h"
 #include "../support/glossy_look.h"
 #include "../support/quadrature.h"
-#include "truth/closed_forms.h"
 #include "truth/reference.h"
 
 namespace lumel {

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "../support/box_lumels.h"
+#include "../support/closed_forms.h"
 #include "../support/welch.h"
-#include "truth/closed_forms.h"
 
 namespace lumel {
 namespace {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "../support/box_lumels.h"
-#include "truth/closed_forms.h"
+#include "../support/closed_forms.h"
 #include "truth/reference.h"
 
 namespace lumel {

@@ -1,7 +1,5 @@
 #include "atlas/cells/ray_origins.h"
 
-#include <cmath>
-
 namespace lumel {
 
 RayOrigin RayOrigins::start(std::size_t i, const glm::vec2& at) const

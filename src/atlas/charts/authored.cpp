@@ -1,7 +1,6 @@
 #include "atlas/charts/authored.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <tuple>

@@ -46,6 +46,15 @@ Bytes read_file(const std::string& path, const std::string& place)
     return bytes;
 }
 
+void check_format(const std::string& path, std::uint64_t format, std::uint64_t read)
+{
+    if (format != read)
+        throw Error(ErrorKind::input, path,
+                    "was written by another version of lumel (its format is " +
+                        std::to_string(format) + ", this one reads " + std::to_string(read) +
+                        "); bake the scene again");
+}
+
 void write_bytes(const std::string& path, std::span<const std::byte> bytes)
 {
     errno = 0;

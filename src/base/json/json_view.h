@@ -84,6 +84,26 @@ std::size_t index_of(const Json& value);
 /// A string of the file for messages: in quotes, on one line, shortened.
 std::string quoted(const std::string& text);
 
+/// A value and its name in files.
+template <class Value>
+struct Named {
+    const char* name;
+    Value value;
+};
+
+/// The value that a string names; fails with all names if there is none.
+template <class Value, std::size_t N>
+Value named_by(const JsonView& view, const Named<Value> (&values)[N])
+{
+    std::string names;
+    for (std::size_t i = 0; i < N; ++i) {
+        if (view.string() == values[i].name)
+            return values[i].value;
+        names += (i == 0 ? "" : i + 1 < N ? ", " : " or ") + std::string(values[i].name);
+    }
+    view.fail("is " + quoted(view.string()) + ", but must be " + names);
+}
+
 /// Parses JSON text. Throws Error{input} with line and column of a mistake.
 Json parse_json(const std::string& file, const std::uint8_t* text, std::size_t size);
 

@@ -78,9 +78,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     SolveRun& run = solution->run;
     if (dump) {
         stages.begin("dumping");
-        write_dump(*dump, device,
-                   {setting.prepared, *setting.world, setting.near, solution->irradiance},
-                   options.solver);
+        write_dump(*dump, device, setting, solution->irradiance, options.solver);
     }
 
     DirectionalLight directional;

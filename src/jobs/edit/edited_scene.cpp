@@ -8,7 +8,6 @@
 #include "atlas/near/buried.h"
 #include "jobs/edit/kept_atlas.h"
 #include "scene/values/scene_hash.h"
-#include "solve/shooting/lumel_arrays.h"
 
 namespace lumel {
 namespace {

@@ -1,7 +1,6 @@
 #include "jobs/inspect/measure.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -12,7 +11,6 @@
 #include "jobs/edit/finished_bake.h"
 #include "jobs/inspect/measure_picture.h"
 #include "jobs/solve/stages.h"
-#include "methods/methods.h"
 #include "results/files/folder.h"
 
 namespace lumel {

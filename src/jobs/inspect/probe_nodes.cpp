@@ -1,11 +1,9 @@
 #include "jobs/inspect/probe_nodes.h"
 
-#include <cstring>
 #include <span>
 
 #include "base/core/error.h"
 #include "base/core/files.h"
-#include "base/json/json_file.h"
 #include "base/json/json_view.h"
 #include "scene/gltf/baked_probes.h"
 #include "scene/gltf/container.h"

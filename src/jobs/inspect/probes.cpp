@@ -9,7 +9,6 @@
 #include "jobs/edit/finished_bake.h"
 #include "jobs/inspect/probe_nodes.h"
 #include "jobs/solve/stages.h"
-#include "methods/methods.h"
 #include "results/files/folder.h"
 
 namespace lumel {

@@ -1,7 +1,6 @@
 #include "jobs/inspect/why.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 

@@ -1,7 +1,8 @@
 #include "jobs/play/links_light.h"
 
-#include <chrono>
 #include <map>
+
+#include "base/core/clock.h"
 
 namespace lumel {
 namespace {
@@ -72,11 +73,10 @@ void LinksLight::change_to(const Scene& shown, double time)
 
 void LinksLight::update(double budget_ms, FrameRow& row)
 {
-    using Clock = std::chrono::steady_clock;
     const LiveLinksState before = state_;
     const Clock::time_point start = Clock::now();
     state_ = live_.advance(budget_ms);
-    row.update_ms += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    row.update_ms += ms_since(start);
     row.residual = std::max(state_.residual, state_.dark_residual);
     row.at_rest = state_.at_rest;
     if (!row.links)

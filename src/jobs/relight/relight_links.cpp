@@ -1,7 +1,6 @@
 #include "jobs/relight/relight_links.h"
 
 #include <filesystem>
-#include <optional>
 
 #include "atlas/finish/finish.h"
 #include "base/core/usage.h"

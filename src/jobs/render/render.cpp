@@ -245,8 +245,7 @@ Made shoot(Lit& frame, Lit* before, const gpu::Device& device, const RenderOptio
     std::vector<glm::vec3> irradiance = solver.irradiance();
     add_light(irradiance, frame.lamps.irradiance);
     if (dump)
-        write_dump(*dump, device, {prepared, *setting.world, setting.near, irradiance},
-                   options.bake.solver);
+        write_dump(*dump, device, setting, irradiance, options.bake.solver);
     const SideMaps maps = finish_sides(prepared.scene, prepared.atlas, prepared.lumels, irradiance);
     const Surfaces surfaces(prepared.scene);
     const LitScene lit(prepared.scene, prepared.atlas, prepared.lumels, maps.front, maps.back);

@@ -9,7 +9,6 @@
 #include "atlas/finish/finish.h"
 #include "base/core/luminance.h"
 #include "base/images/image_files.h"
-#include "methods/methods.h"
 #include "raster/eyes/eye_views.h"
 #include "raster/eyes/probe.h"
 #include "raster/parallel/illumination_maps.h"
@@ -121,15 +120,14 @@ Image colours_of(std::span<const glm::uvec2> pixels, std::uint32_t side, const L
     return image;
 }
 
-void write_illumination(const OutputFolder& folder, const gpu::Device& device, const Solved& solved,
-                        std::span<const glm::vec3> radiosity)
+void write_illumination(const OutputFolder& folder, const gpu::Device& device, const World& world,
+                        const Lumels& lumels, std::span<const glm::vec3> radiosity)
 {
-    const Lumels& lumels = solved.prepared.lumels;
-    const std::uint32_t side = parallel_side(lumels, solved.world.diagonal(), kPixelsPerLumel,
+    const std::uint32_t side = parallel_side(lumels, world.diagonal(), kPixelsPerLumel,
                                              std::min(kLargestSide, device.max_image_side()));
-    IlluminationMaps maps(device, solved.world, Layers::peel, side, 1, std::uint32_t(lumels.width),
+    IlluminationMaps maps(device, world, Layers::peel, side, 1, std::uint32_t(lumels.width),
                           std::uint32_t(lumels.height));
-    const std::array view{fit_view(solved.world.low(), solved.world.high(), side, {})};
+    const std::array view{fit_view(world.low(), world.high(), side, {})};
     const gpu::Array<ParallelView> views(device, std::span<const ParallelView>(view));
     gpu::Pacer pacer(device);
     std::vector<glm::uvec2> pixels(std::size_t(side) * side);
@@ -159,18 +157,19 @@ std::vector<glm::vec3> row_sums(const NearField& near)
 
 }  // namespace
 
-void write_dump(OutputFolder& folder, const gpu::Device& device, const Solved& solved,
-                const SolverOptions& options)
+void write_dump(OutputFolder& folder, const gpu::Device& device, const Setting& setting,
+                std::span<const glm::vec3> irradiance, const SolverOptions& options)
 {
-    const Lumels& lumels = solved.prepared.lumels;
-    const std::vector<glm::vec3> radiosity = radiosity_of(lumels, solved.irradiance);
+    const Lumels& lumels = setting.prepared.lumels;
+    const World& world = *setting.world;
+    const std::vector<glm::vec3> radiosity = radiosity_of(lumels, irradiance);
     const std::vector<glm::vec3> power = power_of(lumels, radiosity);
-    write(folder, view_from(device, solved.world, brightest(power), views_of(options.method)));
-    write_illumination(folder, device, solved, radiosity);
-    if (!solved.near.column.empty())
-        write(
-            folder,
-            {"near", "form factor of close pairs", "1", to_map(lumels, row_sums(solved.near)), {}});
+    write(folder, view_from(device, world, brightest(power), views_of(options.method)));
+    write_illumination(folder, device, world, lumels, radiosity);
+    const NearField& near = setting.near;
+    if (!near.column.empty())
+        write(folder,
+              {"near", "form factor of close pairs", "1", to_map(lumels, row_sums(near)), {}});
     write(folder, {"power", "power", "lm", to_map(lumels, power), {}});
     folder.commit();
 }

@@ -3,21 +3,10 @@
 
 #include <span>
 
-#include "atlas/near/near_field.h"
-#include "atlas/prepare/prepare.h"
-#include "methods/options.h"
-#include "raster/world/world.h"
+#include "jobs/solve/setting.h"
 #include "results/files/folder.h"
 
 namespace lumel {
-
-/// A solved scene, on host and device.
-struct Solved {
-    const Prepared& prepared;
-    const World& world;
-    const NearField& near;
-    std::span<const glm::vec3> irradiance;  ///< [N] [lx]
-};
 
 /// Writes each as NAME.exr with numbers and NAME.png for display, and commits the folder:
 /// - hemicube (or hemisphere, by options.projection): distance from the lumel with the most power
@@ -28,8 +17,9 @@ struct Solved {
 /// - near: row sums of the near field, the fraction of all light at a lumel that comes from close
 ///   pairs if everything is equally bright, as a map. Omitted without a near field.
 /// - power: B A of each lumel [lm], as a map.
-/// Waits for the device. Throws Error{output}.
-void write_dump(OutputFolder& folder, const gpu::Device& device, const Solved& solved,
-                const SolverOptions& options);
+/// irradiance: [N] of the solution [lx]. setting: with its world. Waits for the device. Throws
+/// Error{output}.
+void write_dump(OutputFolder& folder, const gpu::Device& device, const Setting& setting,
+                std::span<const glm::vec3> irradiance, const SolverOptions& options);
 
 }  // namespace lumel

@@ -1,7 +1,6 @@
 #include "jobs/solve/host_memory.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "atlas/finish/fine_radiance.h"

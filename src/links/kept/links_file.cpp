@@ -22,6 +22,7 @@
 #include <sstream>
 
 #include "base/core/error.h"
+#include "base/core/files.h"
 #include "base/core/fingerprint.h"
 #include "base/core/state_bytes.h"
 
@@ -137,11 +138,7 @@ Head read_head(std::istream& file, const std::string& path)
     Head head;
     if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.magic != kMagic)
         throw Error(ErrorKind::input, path, "is not a links file of lumel bake --keep-links");
-    if (head.version != kVersion)
-        throw Error(ErrorKind::input, path,
-                    "was written by another version of lumel (its format is " +
-                        std::to_string(head.version) + ", this one reads " +
-                        std::to_string(kVersion) + "); bake the scene again");
+    check_format(path, head.version, kVersion);
     return head;
 }
 

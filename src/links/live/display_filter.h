@@ -57,7 +57,6 @@ private:
         std::uint32_t tile = ~0u, number = 0;
     };
 
-    float nearest_of(std::size_t lumel) const;
     std::uint8_t steps_of(std::size_t lumel) const;
     bool may_step(std::size_t i, std::size_t j) const;
     void find_halves(std::size_t lumel);

@@ -1,7 +1,5 @@
 #include "links/live/link_relighter.h"
 
-#include <algorithm>
-
 #include "base/core/error.h"
 #include "base/core/parallel.h"
 

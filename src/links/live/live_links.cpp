@@ -1,10 +1,10 @@
 #include "links/live/live_links.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "atlas/near/still_part.h"
+#include "base/core/clock.h"
 #include "base/core/error.h"
 #include "base/core/parallel.h"
 #include "links/live/link_relighter.h"
@@ -69,6 +69,19 @@ void check_factor(const glm::vec3& factor)
 {
     if (!(factor.x >= 0.0f && factor.y >= 0.0f && factor.z >= 0.0f))
         throw Error(ErrorKind::input, "factor", "must not be negative");
+}
+
+/// Calls edit(index) for each element of that name. Returns false if there is none.
+template <class All, class Edit>
+bool edit_named(const All& all, const std::string& name, const Edit& edit)
+{
+    bool found = false;
+    for (std::uint32_t i = 0; i < all.size(); ++i)
+        if (all[i].name == name) {
+            edit(i);
+            found = true;
+        }
+    return found;
 }
 
 template <class All>
@@ -138,18 +151,11 @@ LinkContext LiveLinks::place() const
 
 void LiveLinks::set_lamp(const std::string& name, const glm::vec3& factor)
 {
-    bool found = false;
-    for (std::uint32_t l = 0; l < scene().lights.size(); ++l)
-        if (scene().lights[l].name == name) {
-            set_light(l, factor);
-            found = true;
-        }
-    for (std::uint32_t m = 0; m < scene().materials.size(); ++m)
-        if (scene().materials[m].name == name) {
-            set_emission(m, factor);
-            found = true;
-        }
-    if (!found)
+    const bool has_light =
+        edit_named(scene().lights, name, [&](std::uint32_t l) { set_light(l, factor); });
+    const bool has_material =
+        edit_named(scene().materials, name, [&](std::uint32_t m) { set_emission(m, factor); });
+    if (!has_light && !has_material)
         throw Error(ErrorKind::input, scene().path,
                     "has no light and no material named \"" + name + "\"");
 }
@@ -226,13 +232,7 @@ void LiveLinks::set_albedo(std::uint32_t material, const glm::vec3& colour)
 
 void LiveLinks::move_lamp(const std::string& name, const glm::mat4& transform)
 {
-    bool found = false;
-    for (std::uint32_t l = 0; l < scene().lights.size(); ++l)
-        if (scene().lights[l].name == name) {
-            move_light(l, transform);
-            found = true;
-        }
-    if (!found)
+    if (!edit_named(scene().lights, name, [&](std::uint32_t l) { move_light(l, transform); }))
         throw Error(ErrorKind::input, scene().path, "has no light named \"" + name + "\"");
 }
 
@@ -430,14 +430,10 @@ void LiveLinks::sweep()
 
 LiveLinksState LiveLinks::advance(double budget_ms)
 {
-    using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    const auto spent = [&] {
-        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    };
     while (edited_ || is_under_way() || !state_.at_rest) {
         work();
-        if (!(spent() < budget_ms))
+        if (!(ms_since(start) < budget_ms))
             break;
     }
     state_.under_way = is_under_way();

@@ -9,7 +9,6 @@
 
 #include "links/live/lumel_links.h"
 
-#include <array>
 #include <limits>
 #include <mutex>
 #include <numbers>

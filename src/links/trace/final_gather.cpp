@@ -1,7 +1,6 @@
 #include "links/trace/final_gather.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/gtc/packing.hpp>
 

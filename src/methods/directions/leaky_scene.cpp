@@ -1,11 +1,11 @@
 #include "methods/directions/leaky_scene.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "atlas/near/still_part.h"
+#include "base/core/clock.h"
 #include "base/core/error.h"
 
 namespace lumel {
@@ -115,11 +115,7 @@ void LeakyScene::begin_anew()
 
 LiveState LeakyScene::update(double budget_ms)
 {
-    using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    const auto elapsed = [&] {
-        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    };
     const bool moved = place_what_moved();
     if (moved || changed_) {
         begin_anew();
@@ -130,11 +126,11 @@ LiveState LeakyScene::update(double budget_ms)
         const double directions = double(solver_.state().shots - changed_at_);
         state_.residual = std::pow(1.0 - options_.leak, directions);
         state_.at_rest = state_.residual <= options_.residual;
-        if (elapsed() >= budget_ms)
+        if (ms_since(start) >= budget_ms)
             break;
     }
     state_.hemicubes = solver_.state().shots;
-    state_.milliseconds = elapsed();
+    state_.milliseconds = ms_since(start);
     return state_;
 }
 

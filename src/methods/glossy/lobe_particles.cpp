@@ -26,7 +26,6 @@
 #include "lights/lamp_choice.h"
 #include "methods/glossy/phong.h"
 #include "rays/paths/directions.h"
-#include "solve/shooting/lumel_arrays.h"
 
 namespace lumel {
 namespace {

@@ -196,11 +196,7 @@ void check_head(const std::string& path, const Bytes& bytes)
         std::memcpy(&head, bytes.data(), sizeof head);
     if (bytes.size() < sizeof head || head.magic != kMagic)
         throw Error(ErrorKind::input, path, "is not a matrix file of lumel bake --solver matrix");
-    if (head.version != kVersion)
-        throw Error(ErrorKind::input, path,
-                    "was written by another version of lumel (its format is " +
-                        std::to_string(head.version) + ", this one reads " +
-                        std::to_string(kVersion) + "); bake the scene again");
+    check_format(path, head.version, kVersion);
     if (head.bytes != bytes.size() - sizeof head ||
         head.fingerprint != fingerprint_of(bytes.data() + sizeof head, bytes.size() - sizeof head))
         throw Error(ErrorKind::input, path, "is cut short or damaged; bake the scene again");

@@ -33,7 +33,6 @@
 #include "methods/progressive/progressive.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "solve/shooting/lumel_arrays.h"
 

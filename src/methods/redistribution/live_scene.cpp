@@ -1,10 +1,10 @@
 #include "methods/redistribution/live_scene.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "atlas/near/still_part.h"
+#include "base/core/clock.h"
 #include "base/core/dispatch.shared.h"
 #include "methods/methods.h"
 #include "solve/shooting/lumel_arrays.h"
@@ -350,17 +350,13 @@ void LiveScene::shoot()
 
 LiveState LiveScene::update(double budget_ms)
 {
-    using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    const auto elapsed = [&] {
-        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    };
     if (surfaces_changed_)
         upload_surfaces();
     if (!is_at_rest()) {
         do
             work();
-        while (!is_at_rest() && elapsed() < budget_ms);
+        while (!is_at_rest() && ms_since(start) < budget_ms);
         if (!is_under_way())
             show();
     }
@@ -368,7 +364,7 @@ LiveState LiveScene::update(double budget_ms)
     state_.at_rest = is_at_rest();
     state_.hemicubes = solver_.state().shots + remaining_.hemicubes() +
                        (cross_ ? cross_->hemicubes() : incremental_->hemicubes());
-    state_.milliseconds = elapsed();
+    state_.milliseconds = ms_since(start);
     return state_;
 }
 

@@ -8,8 +8,8 @@ layout(push_constant, scalar) uniform Params { LookParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) readonly buffer Vertices { vec3 vertices[]; };
 layout(scalar) readonly buffer Indices { uint indices[]; };
-layout(scalar) readonly buffer Cuts { uint cuts[]; };
 #include "raster/eyes/hemisphere.find.glsl"
+layout(scalar) readonly buffer Cuts { uint cuts[]; };
 
 layout(location = 0) flat out vec3 plane;  // plane · x = 1 for points x of the triangle
 layout(location = 1) flat out uint triangle;

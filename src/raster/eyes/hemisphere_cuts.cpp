@@ -67,54 +67,32 @@ std::vector<HemisphereCuts::Part> HemisphereCuts::parts() const
     return parts;
 }
 
-gpu::Drawing<shaders::HemisphereStrip> HemisphereCuts::use_strips(gpu::Commands& commands,
-                                                                  const gpu::Array<Eye>& eyes) const
+template <class Shaders>
+gpu::Drawing<Shaders> HemisphereCuts::use(gpu::Commands& commands,
+                                          const gpu::Raster<Shaders>& raster,
+                                          const gpu::Array<Eye>& eyes) const
 {
-    return commands.use(strips_.opaque, {.eyes = eyes,
-                                         .vertices = world_->vertices(),
-                                         .indices = world_->indices(),
-                                         .cuts = cuts_,
-                                         .counts = counts_,
-                                         .block_counts = block_counts_});
+    return commands.use(raster, {.eyes = eyes,
+                                 .vertices = world_->vertices(),
+                                 .indices = world_->indices(),
+                                 .counts = counts_,
+                                 .block_counts = block_counts_,
+                                 .cuts = cuts_});
 }
 
-gpu::Drawing<shaders::HemisphereStripCutOut>
-HemisphereCuts::use_strips(gpu::Commands& commands, const gpu::Array<Eye>& eyes,
-                           const CutOutDraw& cut_out) const
+template <class Shaders>
+gpu::Drawing<Shaders>
+HemisphereCuts::use(gpu::Commands& commands, const gpu::Raster<Shaders>& raster,
+                    const gpu::Array<Eye>& eyes, const CutOutDraw& cut_out) const
 {
-    return commands.use(strips_.cut_out, {.eyes = eyes,
-                                          .vertices = world_->vertices(),
-                                          .indices = world_->indices(),
-                                          .cuts = cuts_,
-                                          .counts = counts_,
-                                          .block_counts = block_counts_,
-                                          .base_color = {*cut_out.color, *cut_out.sampler},
-                                          .looks = world_->looks()});
-}
-
-gpu::Drawing<shaders::Hemisphere> HemisphereCuts::use_patches(gpu::Commands& commands,
-                                                              const gpu::Array<Eye>& eyes) const
-{
-    return commands.use(patches_.opaque, {.eyes = eyes,
-                                          .vertices = world_->vertices(),
-                                          .indices = world_->indices(),
-                                          .counts = counts_,
-                                          .block_counts = block_counts_,
-                                          .cuts = cuts_});
-}
-
-gpu::Drawing<shaders::HemisphereCutOut> HemisphereCuts::use_patches(gpu::Commands& commands,
-                                                                    const gpu::Array<Eye>& eyes,
-                                                                    const CutOutDraw& cut_out) const
-{
-    return commands.use(patches_.cut_out, {.eyes = eyes,
-                                           .vertices = world_->vertices(),
-                                           .indices = world_->indices(),
-                                           .counts = counts_,
-                                           .block_counts = block_counts_,
-                                           .cuts = cuts_,
-                                           .base_color = {*cut_out.color, *cut_out.sampler},
-                                           .looks = world_->looks()});
+    return commands.use(raster, {.eyes = eyes,
+                                 .vertices = world_->vertices(),
+                                 .indices = world_->indices(),
+                                 .counts = counts_,
+                                 .block_counts = block_counts_,
+                                 .cuts = cuts_,
+                                 .base_color = {*cut_out.color, *cut_out.sampler},
+                                 .looks = world_->looks()});
 }
 
 std::uint32_t HemisphereCuts::draw_index(std::uint32_t eye, std::size_t part) const
@@ -172,13 +150,14 @@ void HemisphereCuts::draw(gpu::Commands& commands, const gpu::Array<Eye>& eyes, 
                 drawing.draw_indirect(params, draws_, draw_index(eye, i) + kind);
             }
         };
-        if (part.cut_out) {
-            draw_all(use_strips(commands, eyes, *part.cut_out), kStrips);
-            draw_all(use_patches(commands, eyes, *part.cut_out), kPatches);
-        } else {
-            draw_all(use_strips(commands, eyes), kStrips);
-            draw_all(use_patches(commands, eyes), kPatches);
-        }
+        const auto draw_kind = [&](const auto& rasters, std::uint32_t kind) {
+            if (part.cut_out)
+                draw_all(use(commands, rasters.cut_out, eyes, *part.cut_out), kind);
+            else
+                draw_all(use(commands, rasters.opaque, eyes), kind);
+        };
+        draw_kind(strips_, kStrips);
+        draw_kind(patches_, kPatches);
     }
 }
 

@@ -52,16 +52,12 @@ private:
     using PatchRasters = SurfaceRasters<shaders::Hemisphere, shaders::HemisphereCutOut>;
 
     std::vector<Part> parts() const;
-    gpu::Drawing<shaders::HemisphereStrip> use_strips(gpu::Commands& commands,
-                                                      const gpu::Array<Eye>& eyes) const;
-    gpu::Drawing<shaders::HemisphereStripCutOut> use_strips(gpu::Commands& commands,
-                                                            const gpu::Array<Eye>& eyes,
-                                                            const CutOutDraw& cut_out) const;
-    gpu::Drawing<shaders::Hemisphere> use_patches(gpu::Commands& commands,
-                                                  const gpu::Array<Eye>& eyes) const;
-    gpu::Drawing<shaders::HemisphereCutOut> use_patches(gpu::Commands& commands,
-                                                        const gpu::Array<Eye>& eyes,
-                                                        const CutOutDraw& cut_out) const;
+    template <class Shaders>
+    gpu::Drawing<Shaders> use(gpu::Commands& commands, const gpu::Raster<Shaders>& raster,
+                              const gpu::Array<Eye>& eyes) const;
+    template <class Shaders>
+    gpu::Drawing<Shaders> use(gpu::Commands& commands, const gpu::Raster<Shaders>& raster,
+                              const gpu::Array<Eye>& eyes, const CutOutDraw& cut_out) const;
     std::uint32_t draw_index(std::uint32_t eye, std::size_t part) const;
 
     const World* world_;

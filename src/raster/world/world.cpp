@@ -1,6 +1,5 @@
 #include "raster/world/world.h"
 
-#include <cmath>
 #include <limits>
 
 namespace lumel {

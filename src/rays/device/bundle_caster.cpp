@@ -1,7 +1,6 @@
 #include "rays/device/bundle_caster.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>

@@ -12,7 +12,6 @@
 #include "results/directional/directional.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "base/core/parallel.h"
 #include "raster/eyes/eye_views.h"

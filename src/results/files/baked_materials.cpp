@@ -6,7 +6,8 @@
 #include <set>
 #include <string>
 #include <tuple>
-#include <utility>
+
+#include "scene/gltf/extras.h"
 
 namespace lumel {
 namespace {

@@ -155,21 +155,13 @@ std::set<std::size_t> images_of(const Json& texture)
     return images;
 }
 
-Json& extras_of(Json& part)
-{
-    Json& extras = part["extras"];
-    if (!extras.is_null() && !extras.is_object())
-        extras = Json{{"value", std::move(extras)}};
-    return extras;
-}
-
 GlbBuilder::GlbBuilder(const GltfDocument& document) : json(document.json), document_(document) {}
 
 void GlbBuilder::release()
 {
     unpack_images();
-    free_accessors();
-    free_views();
+    free_accessors_ = free_elements("accessors", kEmptyAccessor, used_accessors);
+    free_views_ = free_elements("bufferViews", kEmptyView, used_views);
     copy_views();
     embed_images();
 }
@@ -195,24 +187,17 @@ void GlbBuilder::unpack_images()
     }
 }
 
-void GlbBuilder::free_accessors()
+/// Empties the elements of a list that only the document uses; returns their indices.
+std::set<std::size_t> GlbBuilder::free_elements(const char* name, const Json& empty,
+                                                std::set<std::size_t> (*used_in)(const Json&))
 {
-    free_accessors_ = used_accessors(document_.json);
-    drop_from(free_accessors_, list(json, "accessors").size());
-    for (const std::size_t live : used_accessors(json))
-        free_accessors_.erase(live);
-    for (const std::size_t accessor : free_accessors_)
-        json["accessors"][accessor] = kEmptyAccessor;
-}
-
-void GlbBuilder::free_views()
-{
-    free_views_ = used_views(document_.json);
-    drop_from(free_views_, list(json, "bufferViews").size());
-    for (const std::size_t live : used_views(json))
-        free_views_.erase(live);
-    for (const std::size_t view : free_views_)
-        json["bufferViews"][view] = kEmptyView;
+    std::set<std::size_t> free = used_in(document_.json);
+    drop_from(free, list(json, name).size());
+    for (const std::size_t live : used_in(json))
+        free.erase(live);
+    for (const std::size_t element : free)
+        json[name][element] = empty;
+    return free;
 }
 
 void GlbBuilder::copy_views()

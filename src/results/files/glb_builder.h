@@ -48,8 +48,8 @@ public:
 
 private:
     void unpack_images();
-    void free_accessors();
-    void free_views();
+    std::set<std::size_t> free_elements(const char* name, const Json& empty,
+                                        std::set<std::size_t> (*used_in)(const Json&));
     void copy_views();
     void embed_images();
     std::size_t append(std::span<const std::uint8_t> bytes);
@@ -67,9 +67,6 @@ std::set<std::size_t> used_accessors(const Json& json);
 
 /// Images of a texture, its own and those of extensions.
 std::set<std::size_t> images_of(const Json& texture);
-
-/// The extras of a part of a glTF as an object; other extras become its member "value".
-Json& extras_of(Json& part);
 
 /// Calls visit(object) for `value` and every object inside it, but not inside extras.
 template <class Value, class Visit>

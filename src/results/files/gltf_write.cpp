@@ -12,6 +12,7 @@
 #include "results/files/baked_meshes.h"
 #include "results/files/glb_builder.h"
 #include "scene/gltf/baked_lights.h"
+#include "scene/gltf/extras.h"
 
 namespace lumel {
 namespace {
@@ -78,16 +79,26 @@ std::size_t add_lightmap(GlbBuilder& builder, const Image& map, float scale,
     return builder.add_texture(name, encode_png(texels, PngEncoding::linear), ktx2);
 }
 
-void write(const std::string& path, GlbBuilder& builder)
-{
-    list_extensions(builder.json, builder.document().json);
+/// Rewrites the scene's file with separate materials for each page of the baked surfaces. `prepare`
+/// edits these and releases the builder; `finish` adds the textures of the pages. Both receive the
+/// builder and the materials by page.
+template <class Prepare, class Finish>
+void rewrite(const std::string& path, const Scene& scene, const Atlas& atlas,
+             const Prepare& prepare, const Finish& finish)
+try {
+    const GltfDocument document = load_gltf_document(scene.path);
+    GlbBuilder builder(document);
+    std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
+
+    cut_baked_primitives(builder.json, baked);
+    const auto materials = separate_materials(builder.json, baked);
+    prepare(builder, materials);
+    place_baked_primitives(builder, baked, atlas);
+    finish(builder, materials);
+    list_extensions(builder.json, document.json);
     const std::vector<std::uint8_t> file = builder.finish();
     write_bytes(path, std::as_bytes(std::span(file)));
-}
-
-/// For errors in JSON that the reader skips, but the output depends on.
-[[noreturn]] void fail_to_rewrite(const Scene& scene, const Json::exception& error)
-{
+} catch (const Json::exception& error) {  // the reader skips such JSON, but the output needs it
     throw Error(ErrorKind::input, scene.path, std::string("cannot be rewritten: ") + error.what());
 }
 
@@ -95,57 +106,43 @@ void write(const std::string& path, GlbBuilder& builder)
 
 void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
                      const Image& map, const SceneLighting& lights)
-try {
-    const GltfDocument document = load_gltf_document(scene.path);
-    GlbBuilder builder(document);
-    std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
-
-    cut_baked_primitives(builder.json, baked);
-    const auto materials = separate_materials(builder.json, baked);
-    for (const std::size_t old : outdated_lightmaps(builder.json, document.json))
-        builder.retire_texture(old);
-    builder.release();
-    tell_of_lights(builder.json, lights);  // data that they refer to is unused from here on
-
-    place_baked_primitives(builder, baked, atlas);
-    const float scale = lightmap_scale(map, lights.exposure);
-    for (std::size_t page = 0; page < materials.size(); ++page) {
-        if (lights.format != LightmapFormat::none)
-            bind_lightmap(builder.json, materials[page],
-                          add_lightmap(builder, cut_page(atlas.pages, int(page), map), scale,
-                                       page_name(atlas.pages, int(page), kLightmapName),
-                                       lights.format),
-                          scale);
-        tell_of_lightmap(builder.json, materials[page], atlas.pages, int(page));
-    }
-    write(path, builder);
-} catch (const Json::exception& error) {
-    fail_to_rewrite(scene, error);
+{
+    const auto prepare = [&](GlbBuilder& builder, const auto&) {
+        for (const std::size_t old : outdated_lightmaps(builder.json, builder.document().json))
+            builder.retire_texture(old);
+        builder.release();
+        tell_of_lights(builder.json, lights);  // data that they refer to is unused from here on
+    };
+    rewrite(path, scene, atlas, prepare, [&](GlbBuilder& builder, const auto& materials) {
+        const float scale = lightmap_scale(map, lights.exposure);
+        for (std::size_t page = 0; page < materials.size(); ++page) {
+            if (lights.format != LightmapFormat::none)
+                bind_lightmap(builder.json, materials[page],
+                              add_lightmap(builder, cut_page(atlas.pages, int(page), map), scale,
+                                           page_name(atlas.pages, int(page), kLightmapName),
+                                           lights.format),
+                              scale);
+            tell_of_lightmap(builder.json, materials[page], atlas.pages, int(page));
+        }
+    });
 }
 
 void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
                      const Image& shown)
-try {
-    const GltfDocument document = load_gltf_document(scene.path);
-    GlbBuilder builder(document);
-    std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
-
-    cut_baked_primitives(builder.json, baked);
-    const auto materials = separate_materials(builder.json, baked);
-    reduce_to_core(builder.json, materials);
-    builder.release();
-
-    place_baked_primitives(builder, baked, atlas);
-    erase_extensions(builder.json);
-    for (std::size_t page = 0; page < materials.size(); ++page) {
-        const Image part = without_alpha(cut_page(atlas.pages, int(page), shown), 1.0f);
-        bind_emission(builder.json, materials[page],
-                      builder.add_texture(page_name(atlas.pages, int(page), "baked light"),
-                                          encode_png(part)));
-    }
-    write(path, builder);
-} catch (const Json::exception& error) {
-    fail_to_rewrite(scene, error);
+{
+    const auto prepare = [&](GlbBuilder& builder, const auto& materials) {
+        reduce_to_core(builder.json, materials);
+        builder.release();
+    };
+    rewrite(path, scene, atlas, prepare, [&](GlbBuilder& builder, const auto& materials) {
+        erase_extensions(builder.json);
+        for (std::size_t page = 0; page < materials.size(); ++page) {
+            const Image part = without_alpha(cut_page(atlas.pages, int(page), shown), 1.0f);
+            bind_emission(builder.json, materials[page],
+                          builder.add_texture(page_name(atlas.pages, int(page), "baked light"),
+                                              encode_png(part)));
+        }
+    });
 }
 
 }  // namespace lumel

@@ -1,7 +1,5 @@
 #include "results/record/solver_settings.h"
 
-#include <map>
-
 #include "base/core/number.h"
 #include "results/record/fields.h"
 

@@ -210,14 +210,16 @@ float normalized_float(T value)
 }
 
 template <typename T>
-void append_floats(const AccessorData& data, std::vector<float>& floats)
+std::vector<float> floats_of(const AccessorData& data)
 {
-    for (std::size_t i = 0; i < data.count * data.components; ++i) {
+    std::vector<float> floats(data.count * data.components);
+    for (std::size_t i = 0; i < floats.size(); ++i) {
         T value;
         std::memcpy(&value, data.bytes.data() + i * sizeof(T), sizeof(T));
-        floats.push_back(data.normalized && !std::is_same_v<T, float> ? normalized_float(value)
-                                                                      : static_cast<float>(value));
+        floats[i] = data.normalized && !std::is_same_v<T, float> ? normalized_float(value)
+                                                                 : static_cast<float>(value);
     }
+    return floats;
 }
 
 }  // namespace
@@ -267,29 +269,21 @@ Bytes buffer_view_bytes(const GltfDocument& document, const JsonView& index)
 
 std::vector<float> to_floats(const AccessorData& data)
 {
-    std::vector<float> floats;
-    floats.reserve(data.count * data.components);
     switch (data.component_type) {
     case ComponentType::i8:
-        append_floats<std::int8_t>(data, floats);
-        break;
+        return floats_of<std::int8_t>(data);
     case ComponentType::u8:
-        append_floats<std::uint8_t>(data, floats);
-        break;
+        return floats_of<std::uint8_t>(data);
     case ComponentType::i16:
-        append_floats<std::int16_t>(data, floats);
-        break;
+        return floats_of<std::int16_t>(data);
     case ComponentType::u16:
-        append_floats<std::uint16_t>(data, floats);
-        break;
+        return floats_of<std::uint16_t>(data);
     case ComponentType::u32:
-        append_floats<std::uint32_t>(data, floats);
-        break;
+        return floats_of<std::uint32_t>(data);
     case ComponentType::f32:
-        append_floats<float>(data, floats);
         break;
     }
-    return floats;
+    return floats_of<float>(data);
 }
 
 std::vector<std::uint32_t> to_unsigned(const AccessorData& data)

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <iterator>
 
+#include "scene/gltf/extras.h"
+
 namespace lumel {
 namespace {
 
 constexpr const char* kLights[] = {"KHR_lights_punctual", "EXT_lights_ies",
                                    "EXT_lights_image_based"};
-constexpr const char *kExtensions = "extensions", *kExtras = "extras",
-                     *kBaked = "lumel_baked_lights";
+constexpr const char *kExtensions = "extensions", *kBaked = "lumel_baked_lights";
 
 /// Moves lights from one member of an object to another. Returns true if there were any.
 bool move_lights(Json& from, Json& into)
@@ -36,36 +37,26 @@ bool put_away(Json& object)
         return false;
     if (extensions->empty())
         object.erase(kExtensions);
-    Json& extras = object[kExtras];  // invalidates references into `object`
-    if (!extras.is_null() && !extras.is_object())
-        extras = Json{{"value", std::move(extras)}};
-    extras[kBaked] = std::move(lights);
+    extras_of(object)[kBaked] = std::move(lights);  // invalidates references into `object`
     return true;
 }
 
 /// The hidden lights of an object, or null.
-Json* put_away_from(Json& object)
+const Json* put_away_from(const Json& object)
 {
-    if (!object.is_object())
-        return nullptr;
-    const auto extras = object.find(kExtras);
-    if (extras == object.end() || !extras->is_object())
-        return nullptr;
-    const auto found = extras->find(kBaked);
-    return found == extras->end() || !found->is_object() ? nullptr : &*found;
+    const Json* lights = in_extras(object, kBaked);
+    return lights && lights->is_object() ? lights : nullptr;
 }
 
 void bring_back(Json& object)
 {
-    Json* found = put_away_from(object);
-    const auto extensions = object.find(kExtensions);
-    if (!found || (extensions != object.end() && !extensions->is_object()))
+    if (!put_away_from(object))
         return;
-    Json lights = std::move(*found);
-    Json& extras = object[kExtras];
-    extras.erase(kBaked);
-    if (extras.empty())
-        object.erase(kExtras);
+    const auto extensions = object.find(kExtensions);
+    if (extensions != object.end() && !extensions->is_object())
+        return;
+    Json lights = std::move(extras_of(object)[kBaked]);
+    erase_from_extras(object, kBaked);
     move_lights(lights, object[kExtensions]);  // invalidates references into `object`
 }
 

@@ -1,6 +1,5 @@
 #include "scene/gltf/container.h"
 
-#include <algorithm>
 #include <cstring>
 
 #include "base/core/error.h"

@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "base/core/error.h"
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/baked_lights.h"
 #include "scene/gltf/baked_probes.h"

@@ -5,6 +5,7 @@
 namespace lumel {
 namespace {
 
+constexpr const char* kExtras = "extras";
 constexpr double kMin = 1e-6, kMax = 1e9;  // [texels/m]
 
 /// An object member, or nullopt. Extras may have any type.
@@ -17,7 +18,7 @@ std::optional<JsonView> object_in(const JsonView& parent, const char* key)
 /// extras.lumel.KEY
 std::optional<JsonView> own_in_extras(const JsonView& object, const char* key)
 {
-    const auto extras = object_in(object, "extras");
+    const auto extras = object_in(object, kExtras);
     const auto own = extras ? object_in(*extras, "lumel") : std::nullopt;
     return own ? own->find(key) : std::nullopt;
 }
@@ -40,6 +41,43 @@ int page_in_extras(const JsonView& material)
 {
     const auto page = own_in_extras(material, "page");
     return page ? int(page->integer(0, kMaxPages - 1)) : 0;
+}
+
+const Json* in_extras(const Json& object, const char* key)
+{
+    if (!object.is_object())
+        return nullptr;
+    const auto extras = object.find(kExtras);
+    if (extras == object.end() || !extras->is_object())
+        return nullptr;
+    const auto found = extras->find(key);
+    return found == extras->end() ? nullptr : &*found;
+}
+
+Json& extras_of(Json& object)
+{
+    Json& extras = object[kExtras];
+    if (!extras.is_null() && !extras.is_object())
+        extras = Json{{"value", std::move(extras)}};
+    return extras;
+}
+
+void erase_from_extras(Json& object, const char* key)
+{
+    Json& extras = object[kExtras];
+    extras.erase(key);
+    if (extras.empty())
+        object.erase(kExtras);
+}
+
+void for_primitive_lists(Json& gltf, const std::function<void(Json& primitives)>& visit)
+{
+    const auto meshes = gltf.find("meshes");
+    if (meshes == gltf.end() || !meshes->is_array())
+        return;
+    for (Json& mesh : *meshes)
+        if (mesh.is_object() && mesh.contains("primitives") && mesh["primitives"].is_array())
+            visit(mesh["primitives"]);
 }
 
 }  // namespace lumel

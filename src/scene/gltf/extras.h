@@ -1,9 +1,11 @@
 #pragma once
 // Lumel's members of extras.
 
-namespace lumel {
+#include <functional>
 
-class JsonView;
+#include "base/json/json_view.h"
+
+namespace lumel {
 
 /// Maximum pages of a lightmap.
 inline constexpr int kMaxPages = 256;
@@ -19,5 +21,15 @@ bool is_probe_in_extras(const JsonView& node);
 /// extras.lumel.page of a material: its lightmap page, written by a bake with several; else 0.
 /// Throws Error{input} if it is invalid.
 int page_in_extras(const JsonView& material);
+
+/// A member of an object's extras; null if there is none.
+const Json* in_extras(const Json& object, const char* key);
+/// An object's extras, to add members to. Extras that are no object move to their member "value".
+Json& extras_of(Json& object);
+/// Erases a member of an object's extras, and then empty extras.
+void erase_from_extras(Json& object, const char* key);
+
+/// Visits the list of primitives of each mesh that has one.
+void for_primitive_lists(Json& gltf, const std::function<void(Json& primitives)>& visit);
 
 }  // namespace lumel

@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <string_view>
 
-#include "base/core/error.h"
-
 namespace lumel {
 
 namespace {

@@ -47,17 +47,8 @@ std::optional<JsonView> extension_of(const JsonView& view)
     return std::nullopt;
 }
 
-Mode mode_of(const JsonView& view)
-{
-    const std::string& mode = view.string();
-    if (mode == "ATTRIBUTES")
-        return Mode::attributes;
-    if (mode == "TRIANGLES")
-        return Mode::triangles;
-    if (mode == "INDICES")
-        return Mode::indices;
-    view.fail("is " + quoted(mode) + ", but must be ATTRIBUTES, TRIANGLES or INDICES");
-}
+constexpr Named<Mode> kModes[] = {
+    {"ATTRIBUTES", Mode::attributes}, {"TRIANGLES", Mode::triangles}, {"INDICES", Mode::indices}};
 
 Filter filter_of(const JsonView& extension)
 {
@@ -121,7 +112,7 @@ std::pair<const std::uint8_t*, std::size_t> stretch_of(const GltfDocument& docum
 Coded read_coded(const GltfDocument& document, const JsonView& view, const JsonView& extension)
 {
     Coded coded;
-    coded.mode = mode_of(extension.get("mode"));
+    coded.mode = named_by(extension.get("mode"), kModes);
     coded.filter = filter_of(extension);
     const JsonView stride = extension.get("byteStride");
     coded.stride = std::size_t(stride.integer(1, kLargestStride));

@@ -18,21 +18,8 @@ constexpr std::int64_t kTriangleMode = 4;
 
 const Json* mark_of(const Json& primitive)
 {
-    if (!primitive.is_object())
-        return nullptr;
-    const auto extras = primitive.find(kExtras);
-    if (extras == primitive.end() || !extras->is_object())
-        return nullptr;
-    const auto mark = extras->find(kPart);
-    return mark != extras->end() && mark->is_object() ? &*mark : nullptr;
-}
-
-Json& new_mark(Json& primitive)
-{
-    Json& extras = primitive[kExtras];
-    if (!extras.is_null() && !extras.is_object())
-        extras = Json{{"value", std::move(extras)}};
-    return extras[kPart];
+    const Json* mark = in_extras(primitive, kPart);
+    return mark && mark->is_object() ? mark : nullptr;
 }
 
 /// An integer of 0 to `most` at `key`.
@@ -150,7 +137,7 @@ void join_parts_of_mesh(const Json& gltf, Json& primitives)
 
 void mark_part(Json& primitive, const PagePart& part)
 {
-    new_mark(primitive) = {{kWhole, part.whole}, {kPage, part.page}};
+    extras_of(primitive)[kPart] = {{kWhole, part.whole}, {kPage, part.page}};
 }
 
 void mark_order(Json& primitive, const std::vector<std::uint32_t>& of_triangle)
@@ -169,24 +156,13 @@ void mark_order(Json& primitive, const std::vector<std::uint32_t>& of_triangle)
 
 void erase_part_marks(Json& primitive)
 {
-    if (!mark_of(primitive))
-        return;
-    Json& extras = primitive[kExtras];
-    extras.erase(kPart);
-    if (extras.empty())
-        primitive.erase(kExtras);
+    if (mark_of(primitive))
+        erase_from_extras(primitive, kPart);
 }
 
 void join_pages(Json& gltf)
 {
-    const auto meshes = gltf.find("meshes");
-    if (meshes == gltf.end() || !meshes->is_array())
-        return;
-    for (std::size_t m = 0; m < meshes->size(); ++m) {
-        Json& mesh = (*meshes)[m];
-        if (mesh.is_object() && mesh.contains("primitives") && mesh["primitives"].is_array())
-            join_parts_of_mesh(gltf, mesh["primitives"]);
-    }
+    for_primitive_lists(gltf, [&](Json& primitives) { join_parts_of_mesh(gltf, primitives); });
 }
 
 std::vector<std::size_t> accessors_of_parts(const Json& primitive)

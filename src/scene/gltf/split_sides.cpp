@@ -2,32 +2,22 @@
 
 #include <algorithm>
 #include <optional>
-#include <string>
+
+#include "scene/gltf/extras.h"
 
 namespace lumel {
 namespace {
 
-constexpr const char *kExtras = "extras", *kSide = "lumel_side", *kFront = "front", *kBack = "back";
+constexpr const char *kSide = "lumel_side", *kFront = "front", *kBack = "back";
 
 std::optional<MarkedSide> mark_of(const Json& primitive)
 {
-    if (!primitive.is_object())
+    const Json* side = in_extras(primitive, kSide);
+    if (!side)
         return std::nullopt;
-    const auto extras = primitive.find(kExtras);
-    if (extras == primitive.end() || !extras->is_object() || !extras->contains(kSide))
-        return std::nullopt;
-    const Json& side = (*extras)[kSide];
-    if (side == kFront)
+    if (*side == kFront)
         return MarkedSide::front;
-    return side == kBack ? std::optional(MarkedSide::back) : std::nullopt;
-}
-
-void erase_mark(Json& primitive)
-{
-    Json& extras = primitive[kExtras];
-    extras.erase(kSide);
-    if (extras.empty())
-        primitive.erase(kExtras);
+    return *side == kBack ? std::optional(MarkedSide::back) : std::nullopt;
 }
 
 /// `user`: an object with a material index, i.e. a primitive or a mapping of material variants.
@@ -56,25 +46,15 @@ void make_all_double_sided(Json& gltf, const Json& primitive)
 
 void mark_side(Json& primitive, MarkedSide side)
 {
-    Json& extras = primitive[kExtras];
-    if (!extras.is_null() && !extras.is_object())
-        extras = Json{{"value", std::move(extras)}};
-    extras[kSide] = side == MarkedSide::front ? kFront : kBack;
+    extras_of(primitive)[kSide] = side == MarkedSide::front ? kFront : kBack;
 }
 
 void join_sides(Json& gltf)
 {
-    const auto meshes = gltf.find("meshes");
-    if (meshes == gltf.end() || !meshes->is_array())
-        return;
-    for (std::size_t m = 0; m < meshes->size(); ++m) {
-        Json& mesh = (*meshes)[m];
-        if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array())
-            continue;
-        Json& primitives = mesh["primitives"];
+    for_primitive_lists(gltf, [&](Json& primitives) {
         const auto is_front = [](const Json& p) { return mark_of(p) == MarkedSide::front; };
         if (std::none_of(primitives.begin(), primitives.end(), is_front))
-            continue;
+            return;
         Json kept = Json::array();
         for (Json& primitive : primitives) {
             const auto mark = mark_of(primitive);
@@ -82,12 +62,12 @@ void join_sides(Json& gltf)
                 continue;
             if (mark) {
                 make_all_double_sided(gltf, primitive);
-                erase_mark(primitive);
+                erase_from_extras(primitive, kSide);
             }
             kept.push_back(std::move(primitive));
         }
         primitives = std::move(kept);
-    }
+    });
 }
 
 }  // namespace lumel

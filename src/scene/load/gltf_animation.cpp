@@ -16,6 +16,10 @@ namespace lumel {
 
 namespace {
 
+constexpr Named<Interpolation> kInterpolations[] = {{"STEP", Interpolation::step},
+                                                    {"LINEAR", Interpolation::linear},
+                                                    {"CUBICSPLINE", Interpolation::cubic_spline}};
+
 /// Tolerance for unit quaternions, which may have 8 bits per component.
 constexpr double kUnitTolerance = 0.02;
 constexpr const char* kPointer = "KHR_animation_pointer";
@@ -174,14 +178,8 @@ private:
     Track read_track(const JsonView& sampler, Quantity quantity) const
     {
         Track track;
-        const std::string mode = sampler.string_or("interpolation", "LINEAR");
-        if (mode == "STEP")
-            track.interpolation = Interpolation::step;
-        else if (mode == "CUBICSPLINE")
-            track.interpolation = Interpolation::cubic_spline;
-        else if (mode != "LINEAR")
-            sampler.get("interpolation")
-                .fail("is " + quoted(mode) + ", but must be STEP, LINEAR or CUBICSPLINE");
+        if (const auto mode = sampler.find("interpolation"))
+            track.interpolation = named_by(*mode, kInterpolations);
         track.times = read_times(sampler.get("input"));
         const bool spline = track.interpolation == Interpolation::cubic_spline;
         track.values =

@@ -1,7 +1,6 @@
 #include "scene/load/gltf_attributes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "scene/gltf/accessor.h"
@@ -12,63 +11,32 @@ namespace lumel {
 
 namespace {
 
-/// A storage format of an attribute.
-struct Encoding {
-    ComponentType type;
-    bool normalized;
-    bool quantized;  ///< only with KHR_mesh_quantization
-};
+/// 8- and 16-bit integers that only KHR_mesh_quantization allows.
+enum class Quantized { none, normalized_signed, all };
 
-/// Allowed types and formats of an attribute.
+/// Allowed types and formats of an attribute, besides floats.
 struct AttributeRule {
-    const char* types;  ///< "VEC3" or "VEC3 VEC4"
-    std::vector<Encoding> encodings;
+    const char* types;         ///< "VEC3" or "VEC3 VEC4"
+    bool normalized_unsigned;  ///< normalised 8- and 16-bit unsigned integers
+    Quantized quantized;
 };
 
-constexpr Encoding kFloat = {ComponentType::f32, false, false};
+constexpr AttributeRule kPositionRule{"VEC3", false, Quantized::all};
+constexpr AttributeRule kNormalRule{"VEC3", false, Quantized::normalized_signed};
+constexpr AttributeRule kTexcoordRule{"VEC2", true, Quantized::all};
+constexpr AttributeRule kColorRule{"VEC3 VEC4", true, Quantized::none};
 
-const AttributeRule& position_rule()
+bool allows(const AttributeRule& rule, const AccessorData& data, bool quantization)
 {
-    static const AttributeRule rule = {"VEC3",
-                                       {kFloat,
-                                        {ComponentType::i8, false, true},
-                                        {ComponentType::i8, true, true},
-                                        {ComponentType::u8, false, true},
-                                        {ComponentType::u8, true, true},
-                                        {ComponentType::i16, false, true},
-                                        {ComponentType::i16, true, true},
-                                        {ComponentType::u16, false, true},
-                                        {ComponentType::u16, true, true}}};
-    return rule;
-}
-
-const AttributeRule& normal_rule()
-{
-    static const AttributeRule rule = {
-        "VEC3", {kFloat, {ComponentType::i8, true, true}, {ComponentType::i16, true, true}}};
-    return rule;
-}
-
-const AttributeRule& texcoord_rule()
-{
-    static const AttributeRule rule = {"VEC2",
-                                       {kFloat,
-                                        {ComponentType::u8, true, false},
-                                        {ComponentType::u16, true, false},
-                                        {ComponentType::u8, false, true},
-                                        {ComponentType::u16, false, true},
-                                        {ComponentType::i8, false, true},
-                                        {ComponentType::i8, true, true},
-                                        {ComponentType::i16, false, true},
-                                        {ComponentType::i16, true, true}}};
-    return rule;
-}
-
-const AttributeRule& color_rule()
-{
-    static const AttributeRule rule = {
-        "VEC3 VEC4", {kFloat, {ComponentType::u8, true, false}, {ComponentType::u16, true, false}}};
-    return rule;
+    const ComponentType type = data.component_type;
+    if (type == ComponentType::f32 || type == ComponentType::u32)
+        return type == ComponentType::f32;
+    const bool is_unsigned = type == ComponentType::u8 || type == ComponentType::u16;
+    if (rule.normalized_unsigned && is_unsigned && data.normalized)
+        return true;
+    return quantization &&
+           (rule.quantized == Quantized::all ||
+            (rule.quantized == Quantized::normalized_signed && !is_unsigned && data.normalized));
 }
 
 void check_rule(const JsonView& view, const AccessorData& data, const AttributeRule& rule,
@@ -76,13 +44,7 @@ void check_rule(const JsonView& view, const AccessorData& data, const AttributeR
 {
     if (std::string(rule.types).find(data.type) == std::string::npos || data.type.size() != 4)
         view.fail("refers to an accessor of type " + data.type + ", but needs " + rule.types);
-    const bool known =
-        std::any_of(rule.encodings.begin(), rule.encodings.end(), [&](const Encoding& e) {
-            const bool normalized = data.normalized && data.component_type != ComponentType::f32;
-            return e.type == data.component_type && e.normalized == normalized &&
-                   (quantization || !e.quantized);
-        });
-    if (!known)
+    if (!allows(rule, data, quantization))
         view.fail("refers to an accessor with component type " +
                   std::to_string(static_cast<int>(data.component_type)) +
                   (data.normalized ? " (normalized)" : "") + ", which this attribute cannot have" +
@@ -161,8 +123,8 @@ void apply_morph_targets(const GltfDocument& document, const JsonView& view,
             return;
         const AttributeSet set(document, target);
         const std::size_t count = primitive.positions.size();
-        const auto moves = set.read_finite<3>("POSITION", position_rule(), count);
-        const auto turns = set.read_finite<3>("NORMAL", normal_rule(), count);
+        const auto moves = set.read_finite<3>("POSITION", kPositionRule, count);
+        const auto turns = set.read_finite<3>("NORMAL", kNormalRule, count);
         for (std::size_t v = 0; v < moves.size(); ++v)
             primitive.positions[v] += weight * moves[v];
         for (std::size_t v = 0; v < std::min(turns.size(), primitive.normals.size()); ++v)
@@ -176,16 +138,16 @@ void read_attributes(const GltfDocument& document, const JsonView& view,
                      const std::vector<float>& weights, Primitive& primitive)
 {
     const AttributeSet set(document, view.get("attributes"));
-    primitive.positions = set.read<3>("POSITION", position_rule());
+    primitive.positions = set.read<3>("POSITION", kPositionRule);
     const std::size_t count = primitive.positions.size();
     if (count == 0)
         view.fail("has no POSITION attribute");
-    primitive.normals = set.read<3>("NORMAL", normal_rule());
+    primitive.normals = set.read<3>("NORMAL", kNormalRule);
     set.check_length("NORMAL", primitive.normals.size(), count);
     for (int i = 0; i < kTexcoordSets; ++i)
         primitive.texcoords[i] =
-            set.read_finite<2>(("TEXCOORD_" + std::to_string(i)).c_str(), texcoord_rule(), count);
-    primitive.colors = set.read_finite<4>("COLOR_0", color_rule(), count);
+            set.read_finite<2>(("TEXCOORD_" + std::to_string(i)).c_str(), kTexcoordRule, count);
+    primitive.colors = set.read_finite<4>("COLOR_0", kColorRule, count);
     apply_morph_targets(document, view, weights, primitive);
 
     for (std::size_t i = 0; i < count; ++i)

@@ -14,6 +14,9 @@ namespace lumel {
 
 namespace {
 
+constexpr Named<AlphaMode> kAlphaModes[] = {
+    {"OPAQUE", AlphaMode::opaque}, {"MASK", AlphaMode::mask}, {"BLEND", AlphaMode::blend}};
+
 class MaterialReader {
 public:
     MaterialReader(const GltfDocument& document, MaterialModel model)
@@ -117,14 +120,8 @@ private:
 
     void read_alpha(const JsonView& view, Material& material)
     {
-        const std::string mode = view.string_or("alphaMode", "OPAQUE");
-        if (mode == "MASK")
-            material.alpha_mode = AlphaMode::mask;
-        else if (mode == "BLEND")
-            material.alpha_mode = AlphaMode::blend;
-        else if (mode != "OPAQUE")
-            view.get("alphaMode")
-                .fail("is " + quoted(mode) + ", but must be OPAQUE, MASK or BLEND");
+        if (const auto mode = view.find("alphaMode"))
+            material.alpha_mode = named_by(*mode, kAlphaModes);
         material.alpha_cutoff = view.number_or("alphaCutoff", material.alpha_cutoff);
         if (material.alpha_cutoff < 0.0f)
             view.get("alphaCutoff").fail("must not be negative");

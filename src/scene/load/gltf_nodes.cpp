@@ -1,7 +1,6 @@
 #include "scene/load/gltf_nodes.h"
 
 #include <cmath>
-#include <utility>
 
 namespace lumel {
 

@@ -25,8 +25,6 @@ public:
 
     const gpu::Array<float>& array() const { return array_; }
     const PyramidLayout& layout() const { return layout_; }
-    /// [1] on the device: Φ = Σ 𝓛(X_j) A_j of the last build.
-    const gpu::Array<float>& total_power() const { return power_; }
 
 private:
     void sum_levels(gpu::Commands& commands);

@@ -1,5 +1,6 @@
 #include "viewer/session/player.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <glm/trigonometric.hpp>
@@ -35,15 +36,10 @@ float radians_of(const std::vector<double>& degrees, std::size_t i)
     return i < degrees.size() ? float(glm::radians(degrees[i])) : 0.0f;
 }
 
-ViewMode mode_of(const std::string& word)
+ViewMode mode_of(const std::string& name)
 {
-    if (word == "lit")
-        return ViewMode::lit;
-    if (word == "irradiance")
-        return ViewMode::irradiance;
-    if (word == "error")
-        return ViewMode::error;
-    return word == "lumels" ? ViewMode::lumels : ViewMode::links;
+    const auto found = std::find(kViewModes.begin(), kViewModes.end(), name);
+    return ViewMode(found - kViewModes.begin());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "base/core/error.h"
 #include "base/core/number.h"
 #include "base/json/json_view.h"
+#include "viewer/session/session.h"
 #include "viewer/session/solve_order.h"
 
 namespace lumel {
@@ -22,229 +23,75 @@ constexpr double kMaxPixels = 16384;  ///< maximum side of an image
 constexpr double kMaxFrames = 1e6, kMaxCameras = 1e6, kMaxSeconds = 1e6;
 constexpr double kMinScale = 1e-6, kMaxScale = 1e12;  ///< [lx]
 
-constexpr std::array kForms = {
-    CommandForm{.verb = Verb::camera,
-                .word = "camera",
-                .arguments = "N",
-                .meaning = "look through camera N of the file, from 0",
-                .least = 1,
-                .most = 1,
-                .high = kMaxCameras,
-                .whole = true},
-    CommandForm{.verb = Verb::eye,
-                .word = "eye",
-                .arguments = "X,Y,Z",
-                .meaning = "move the eye there [m]",
-                .least = 3,
-                .most = 3,
-                .low = -kFar,
-                .high = kFar},
-    CommandForm{.verb = Verb::look,
-                .word = "look",
-                .arguments = "X,Y,Z",
-                .meaning = "look at a point [m]",
-                .least = 3,
-                .most = 3,
-                .low = -kFar,
-                .high = kFar},
-    CommandForm{.verb = Verb::walk,
-                .word = "walk",
-                .arguments = "F[,R[,U]]",
-                .meaning = "walk forward (horizontally), right and up [m]",
-                .least = 1,
-                .most = 3,
-                .low = -kFar,
-                .high = kFar},
-    CommandForm{.verb = Verb::gaze,
-                .word = "gaze",
-                .arguments = "LEFT[,UP]",
-                .meaning = "turn the view [degrees]",
-                .least = 1,
-                .most = 2,
-                .low = -kTurns,
-                .high = kTurns},
-    CommandForm{.verb = Verb::orbit,
-                .word = "orbit",
-                .arguments = "AROUND[,OVER]",
-                .meaning = "orbit the picked object, or the centre of the image [degrees]",
-                .least = 1,
-                .most = 2,
-                .low = -kTurns,
-                .high = kTurns},
-    CommandForm{.verb = Verb::pick,
-                .word = "pick",
-                .arguments = "X,Y | NAME",
-                .meaning = "pick the object at a pixel of the image, from its top left; or by name",
-                .takes = ArgumentKind::name_or_numbers,
-                .least = 2,
-                .most = 2,
-                .high = kMaxPixels,
-                .whole = true},
-    CommandForm{.verb = Verb::move,
-                .word = "move",
-                .arguments = "X,Y,Z",
-                .meaning = "move the picked object [m]",
-                .least = 3,
-                .most = 3,
-                .low = -kFar,
-                .high = kFar},
-    CommandForm{.verb = Verb::turn,
-                .word = "turn",
-                .arguments = "DEGREES",
-                .meaning = "rotate it about its vertical axis, counter-clockwise from above",
-                .least = 1,
-                .most = 1,
-                .low = -kTurns,
-                .high = kTurns},
-    CommandForm{.verb = Verb::remove,
-                .word = "delete",
-                .arguments = "",
-                .meaning = "delete it from the scene"},
-    CommandForm{.verb = Verb::paint,
-                .word = "paint",
-                .arguments = "R,G,B",
-                .meaning = "set the base colour of its material, 0 to 1",
-                .least = 3,
-                .most = 3,
-                .high = 1.0},
-    CommandForm{.verb = Verb::dim,
-                .word = "dim",
-                .arguments = "F | R,G,B",
-                .meaning = "scale the emission of the picked material, relative to the file",
-                .least = 1,
-                .most = 3,
-                .high = kBright},
-    CommandForm{.verb = Verb::lamp,
-                .word = "lamp",
-                .arguments = "NAME F | NAME R,G,B",
-                .meaning = "scale the lights, or the emission of the material, of that name",
-                .takes = ArgumentKind::name,
-                .least = 1,
-                .most = 3,
-                .high = kBright},
-    CommandForm{.verb = Verb::sky,
-                .word = "sky",
-                .arguments = "F | R,G,B",
-                .meaning = "scale the sky",
-                .least = 1,
-                .most = 3,
-                .high = kBright},
-    CommandForm{.verb = Verb::turn_sky,
-                .word = "turn-sky",
-                .arguments = "DEGREES",
-                .meaning = "rotate the given sky by this angle, counter-clockwise",
-                .least = 1,
-                .most = 1,
-                .low = -kTurns,
-                .high = kTurns},
-    CommandForm{.verb = Verb::sun,
-                .word = "sun",
-                .arguments = "AZIMUTH,ELEVATION",
-                .meaning = "set the sun [degrees], its azimuth clockwise from north (-z)",
-                .least = 2,
-                .most = 2,
-                .low = -kTurns,
-                .high = kTurns},
-    CommandForm{.verb = Verb::time,
-                .word = "time",
-                .arguments = "SECONDS",
-                .meaning = "set the time of the animation",
-                .least = 1,
-                .most = 1,
-                .high = kMaxSeconds},
-    CommandForm{.verb = Verb::solve,
-                .word = "solve",
-                .arguments = "METHOD [--OPTION VALUE ...]",
-                .meaning =
-                    "light the current scene by another method, and show it; options and limits "
-                    "are those of lumel bake",
-                .takes = ArgumentKind::method},
-    CommandForm{.verb = Verb::light,
-                .word = "light",
-                .arguments = "links | solved",
-                .meaning = "show the light of links, or that of the last solve",
-                .takes = ArgumentKind::light},
-    CommandForm{.verb = Verb::probes,
-                .word = "probes",
-                .arguments = "SPACING | off",
-                .meaning = "show light probes as balls, on a grid of this spacing [m]",
-                .takes = ArgumentKind::off,
-                .least = 1,
-                .most = 1,
-                .low = 1e-3,
-                .high = kFar},
-    CommandForm{.verb = Verb::exposure,
-                .word = "exposure",
-                .arguments = "F | auto",
-                .meaning = "factor from cd/m2 to brightness, or fitted to each image",
-                .takes = ArgumentKind::automatic,
-                .least = 1,
-                .most = 1,
-                .low = 1e-12,
-                .high = 1e12},
-    CommandForm{.verb = Verb::stops,
-                .word = "ev",
-                .arguments = "STOPS",
-                .meaning = "raise the exposure by this number of stops: 1 is twice as bright",
-                .least = 1,
-                .most = 1,
-                .low = -kStops,
-                .high = kStops},
-    CommandForm{
-        .verb = Verb::mode,
-        .word = "mode",
-        .arguments = "lit | irradiance | lumels | links | error",
-        .meaning =
-            "show light, irradiance in false colours with a legend, lumels as fields of their "
-            "charts, contributors to the picked lumel, or the estimated error",
-        .takes = ArgumentKind::mode},
-    CommandForm{.verb = Verb::scale,
-                .word = "scale",
-                .arguments = "LOW,HIGH | auto",
-                .meaning = "ends of the legend [lx], or [%] in mode error",
-                .takes = ArgumentKind::automatic,
-                .least = 2,
-                .most = 2,
-                .low = kMinScale,
-                .high = kMaxScale},
-    CommandForm{.verb = Verb::frames,
-                .word = "frames",
-                .arguments = "N",
-                .meaning = "update the light for N frames",
-                .least = 1,
-                .most = 1,
-                .low = 1.0,
-                .high = kMaxFrames,
-                .whole = true},
-    CommandForm{.verb = Verb::wait,
-                .word = "wait",
-                .arguments = "",
-                .meaning = "update the light until it has converged"},
-    CommandForm{.verb = Verb::picture,
-                .word = "picture",
-                .arguments = "FILE.png",
-                .meaning = "write the image",
-                .takes = ArgumentKind::png},
-    CommandForm{.verb = Verb::state,
-                .word = "state",
-                .arguments = "FILE.json",
-                .meaning = "write light, camera, picked object and frame times",
-                .takes = ArgumentKind::json},
-    CommandForm{.verb = Verb::window,
-                .word = "window",
-                .arguments = "FILE.png",
-                .meaning = "write the image of the window with its panel",
-                .takes = ArgumentKind::png},
-    CommandForm{.verb = Verb::save,
-                .word = "save",
-                .arguments = "FOLDER",
-                .meaning = "bake the current scene into this folder",
-                .takes = ArgumentKind::folder},
-    CommandForm{.verb = Verb::quit,
-                .word = "quit",
-                .arguments = "",
-                .meaning = "end the script and close the window"},
-};
+constexpr NumberForm kNoNumbers;
+constexpr NumberForm kPoint{3, 3, -kFar, kFar};
+constexpr NumberForm kAngle{1, 1, -kTurns, kTurns}, kAngles{1, 2, -kTurns, kTurns};
+constexpr NumberForm kFactor{1, 3, 0.0, kBright};  ///< one for all channels, or one each
+
+constexpr auto kForms = std::to_array<CommandForm>({
+    {Verb::camera, "camera", "N", "look through camera N of the file, from 0",
+     NumberForm{1, 1, 0.0, kMaxCameras, true}},
+    {Verb::eye, "eye", "X,Y,Z", "move the eye there [m]", kPoint},
+    {Verb::look, "look", "X,Y,Z", "look at a point [m]", kPoint},
+    {Verb::walk, "walk", "F[,R[,U]]", "walk forward (horizontally), right and up [m]",
+     NumberForm{1, 3, -kFar, kFar}},
+    {Verb::gaze, "gaze", "LEFT[,UP]", "turn the view [degrees]", kAngles},
+    {Verb::orbit, "orbit", "AROUND[,OVER]",
+     "orbit the picked object, or the centre of the image [degrees]", kAngles},
+    {Verb::pick, "pick", "X,Y | NAME",
+     "pick the object at a pixel of the image, from its top left; or by name",
+     NumberForm{2, 2, 0.0, kMaxPixels, true}, ArgumentKind::name_or_numbers},
+    {Verb::move, "move", "X,Y,Z", "move the picked object [m]", kPoint},
+    {Verb::turn, "turn", "DEGREES",
+     "rotate it about its vertical axis, counter-clockwise from above", kAngle},
+    {Verb::remove, "delete", "", "delete it from the scene"},
+    {Verb::paint, "paint", "R,G,B", "set the base colour of its material, 0 to 1",
+     NumberForm{3, 3, 0.0, 1.0}},
+    {Verb::dim, "dim", "F | R,G,B",
+     "scale the emission of the picked material, relative to the file", kFactor},
+    {Verb::lamp, "lamp", "NAME F | NAME R,G,B",
+     "scale the lights, or the emission of the material, of that name", kFactor,
+     ArgumentKind::name},
+    {Verb::sky, "sky", "F | R,G,B", "scale the sky", kFactor},
+    {Verb::turn_sky, "turn-sky", "DEGREES", "rotate the given sky by this angle, counter-clockwise",
+     kAngle},
+    {Verb::sun, "sun", "AZIMUTH,ELEVATION",
+     "set the sun [degrees], its azimuth clockwise from north (-z)",
+     NumberForm{2, 2, -kTurns, kTurns}},
+    {Verb::time, "time", "SECONDS", "set the time of the animation",
+     NumberForm{1, 1, 0.0, kMaxSeconds}},
+    {Verb::solve, "solve", "METHOD [--OPTION VALUE ...]",
+     "light the current scene by another method, and show it; options and limits are those of "
+     "lumel bake",
+     kNoNumbers, ArgumentKind::method},
+    {Verb::light, "light", "links | solved", "show the light of links, or that of the last solve",
+     kNoNumbers, ArgumentKind::light},
+    {Verb::probes, "probes", "SPACING | off",
+     "show light probes as balls, on a grid of this spacing [m]", NumberForm{1, 1, 1e-3, kFar},
+     ArgumentKind::off},
+    {Verb::exposure, "exposure", "F | auto",
+     "factor from cd/m2 to brightness, or fitted to each image", NumberForm{1, 1, 1e-12, 1e12},
+     ArgumentKind::automatic},
+    {Verb::stops, "ev", "STOPS", "raise the exposure by this number of stops: 1 is twice as bright",
+     NumberForm{1, 1, -kStops, kStops}},
+    {Verb::mode, "mode", "lit | irradiance | lumels | links | error",
+     "show light, irradiance in false colours with a legend, lumels as fields of their charts, "
+     "contributors to the picked lumel, or the estimated error",
+     kNoNumbers, ArgumentKind::mode},
+    {Verb::scale, "scale", "LOW,HIGH | auto", "ends of the legend [lx], or [%] in mode error",
+     NumberForm{2, 2, kMinScale, kMaxScale}, ArgumentKind::automatic},
+    {Verb::frames, "frames", "N", "update the light for N frames",
+     NumberForm{1, 1, 1.0, kMaxFrames, true}},
+    {Verb::wait, "wait", "", "update the light until it has converged"},
+    {Verb::picture, "picture", "FILE.png", "write the image", kNoNumbers, ArgumentKind::png},
+    {Verb::state, "state", "FILE.json", "write light, camera, picked object and frame times",
+     kNoNumbers, ArgumentKind::json},
+    {Verb::window, "window", "FILE.png", "write the image of the window with its panel", kNoNumbers,
+     ArgumentKind::png},
+    {Verb::save, "save", "FOLDER", "bake the current scene into this folder", kNoNumbers,
+     ArgumentKind::folder},
+    {Verb::quit, "quit", "", "end the script and close the window"},
+});
 
 /// Splits a line into words; quoted words can contain blanks. # starts a comment.
 class Words {
@@ -277,11 +124,12 @@ private:
 bool fits(const CommandForm& form, const std::vector<double>& numbers)
 {
     const std::size_t count = numbers.size();
-    const bool colour_or_factor = form.high == kBright;  // one number for three equal ones
-    return count >= form.least && count <= form.most && !(colour_or_factor && count == 2) &&
+    const bool colour_or_factor = form.numbers.high == kBright;  // one number for three equal ones
+    return count >= form.numbers.least && count <= form.numbers.most &&
+           !(colour_or_factor && count == 2) &&
            std::all_of(numbers.begin(), numbers.end(), [&](double number) {
-               return number >= form.low && number <= form.high &&
-                      !(form.whole && number != std::floor(number));
+               return number >= form.numbers.low && number <= form.numbers.high &&
+                      !(form.numbers.whole && number != std::floor(number));
            });
 }
 
@@ -324,8 +172,7 @@ bool is_word_for(const CommandForm& form, const std::string& word)
     case ArgumentKind::off:
         return word == "off";
     case ArgumentKind::mode:
-        return word == "lit" || word == "irradiance" || word == "lumels" || word == "links" ||
-               word == "error";
+        return std::find(kViewModes.begin(), kViewModes.end(), word) != kViewModes.end();
     case ArgumentKind::png:
         return is_file_name(word, ".png");
     case ArgumentKind::json:
@@ -344,7 +191,7 @@ bool take(ScriptCommand& command, const std::vector<std::string>& words)
     const bool may_be_numbers =
         form.takes == ArgumentKind::none || form.takes == ArgumentKind::automatic ||
         form.takes == ArgumentKind::off || form.takes == ArgumentKind::name_or_numbers;
-    if (may_be_numbers && form.least > 0 && !words.empty()) {
+    if (may_be_numbers && form.numbers.least > 0 && !words.empty()) {
         command.numbers = numbers_of(form, words[0]);
         taken = command.numbers.empty() ? 0 : 1;
     }
@@ -356,7 +203,7 @@ bool take(ScriptCommand& command, const std::vector<std::string>& words)
         taken += command.numbers.empty() ? 0 : 1;
     }
     const bool complete = form.takes == ArgumentKind::name || form.takes == ArgumentKind::none
-                              ? form.least == 0 || !command.numbers.empty()
+                              ? form.numbers.least == 0 || !command.numbers.empty()
                               : taken == 1;
     return complete && taken == words.size();
 }

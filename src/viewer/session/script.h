@@ -59,13 +59,18 @@ enum class ArgumentKind {
     folder,  ///< folder name
 };
 
+/// Numbers that a command takes.
+struct NumberForm {
+    std::size_t least = 0, most = 0;  ///< 1 and 3: either
+    double low = 0.0, high = 0.0;     ///< range
+    bool whole = false;               ///< integers
+};
+
 struct CommandForm {
     Verb verb;
     const char *word, *arguments, *meaning;
+    NumberForm numbers = {};
     ArgumentKind takes = ArgumentKind::none;
-    std::size_t least = 0, most = 0;  ///< count of numbers; 1 and 3: either
-    double low = 0.0, high = 0.0;     ///< range of numbers
-    bool whole = false;               ///< numbers are integers
 };
 
 /// All commands, in the order of the help.

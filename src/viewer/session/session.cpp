@@ -1,16 +1,13 @@
 #include "viewer/session/session.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/core/clock.h"
 #include "base/core/error.h"
-#include "base/core/luminance.h"
-#include "results/preview/view.h"
 #include "scene/sky/clear_sky.h"
-#include "viewer/session/clock.h"
 #include "viewer/session/view.h"
 
 namespace lumel {

@@ -1,6 +1,7 @@
 #pragma once
 // Interactive session with a lit scene: view, pick, move, dim; light is updated by frames.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,7 +44,9 @@ enum class ViewMode {
     links,       ///< contributors to a lumel's light, as lines
     error,       ///< estimated error in false colours
 };
-inline constexpr int kViewModes = 5;
+/// Their names, in order.
+inline constexpr std::array<const char*, 5> kViewModes{"lit", "irradiance", "lumels", "links",
+                                                       "error"};
 
 /// Surface under a pixel.
 struct Picked {

@@ -5,10 +5,10 @@
 
 #include "atlas/finish/finish.h"
 #include "atlas/lumels/sides.h"
+#include "base/core/clock.h"
 #include "base/core/error.h"
 #include "base/core/luminance.h"
 #include "base/images/image_files.h"
-#include "viewer/session/clock.h"
 #include "viewer/session/session.h"
 
 namespace lumel {

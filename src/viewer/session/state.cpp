@@ -14,8 +14,6 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kModes[] = {"lit", "irradiance", "lumels", "links", "error"};
-
 Json numbers(const glm::vec3& v)
 {
     return Json::array({v.x, v.y, v.z});
@@ -178,7 +176,7 @@ Json state_of(ViewSession& session)
     json["camera"] = {{"eye", numbers(camera.eye())},
                       {"forward", numbers(camera.forward())},
                       {"up", numbers(camera.up())}};
-    json["mode"] = kModes[std::size_t(session.mode())];
+    json["mode"] = kViewModes[std::size_t(session.mode())];
     json["exposure"] = {{"automatic", session.has_automatic_exposure()},
                         {"stops", session.stops()},
                         {"factor", session.exposure()}};

@@ -1,7 +1,5 @@
 #include "viewer/session/view.h"
 
-#include <optional>
-
 #include "base/core/error.h"
 #include "base/core/log.h"
 #include "base/json/json_file.h"

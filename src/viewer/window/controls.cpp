@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <GLFW/glfw3.h>
 #include <glm/trigonometric.hpp>
@@ -60,7 +59,7 @@ Ray ray_at(const ViewSession& session, const UiState& desk, const glm::vec2& mou
 
 void next_mode(ViewSession& session)
 {
-    session.set_mode(ViewMode((int(session.mode()) + 1) % kViewModes));
+    session.set_mode(ViewMode((int(session.mode()) + 1) % int(kViewModes.size())));
 }
 
 /// Walking keys: forward, right, up.

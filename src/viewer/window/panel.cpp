@@ -1,7 +1,6 @@
 #include "viewer/window/panel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>

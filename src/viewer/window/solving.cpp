@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "base/core/error.h"
 #include "base/core/log.h"
 #include "jobs/solve/stages.h"
 

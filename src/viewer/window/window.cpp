@@ -14,16 +14,15 @@
 #include <glm/gtc/constants.hpp>
 #include <imgui.h>
 
+#include "base/core/clock.h"
 #include "base/core/error.h"
 #include "base/core/log.h"
 #include "base/images/image_files.h"
 #include "jobs/solve/setting.h"
 #include "jobs/solve/stages.h"
 #include "results/files/folder.h"
-#include "results/preview/view.h"
 #include "scene/gltf/document.h"
 #include "scene/values/animation.h"
-#include "viewer/session/clock.h"
 #include "viewer/session/player.h"
 #include "viewer/session/save.h"
 #include "viewer/window/controls.h"

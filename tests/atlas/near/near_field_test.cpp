@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "../../support/box_lumels.h"
+#include "../../support/closed_forms.h"
 #include "atlas/near/near_field.h"
-#include "truth/closed_forms.h"
 
 namespace lumel {
 namespace {

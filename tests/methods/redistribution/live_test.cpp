@@ -270,7 +270,7 @@ TEST_P(LiveScenes, ABoxThatNeverStopsIsShownAllTheSame)
 // Sky, sun and a bulb are looked from a few views at a time.
 TEST_P(LiveScenes, LampsAndSkyFoundInShortBudgetsAreThoseOfOneLongCall)
 {
-    const Scene scene = cubes_under_a_sun();
+    Scene scene = cubes_under_a_sun();
     PunctualLight bulb;
     bulb.intensity = 5.0f;
     bulb.radius = 0.05f;

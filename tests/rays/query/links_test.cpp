@@ -1,8 +1,8 @@
 // Links whose rays a device casts, against those of the host and against a closed form.
 
 #include "../../jobs/closed_room.h"
+#include "../../support/closed_forms.h"
 #include "compared_links.h"
-#include "truth/closed_forms.h"
 
 namespace lumel {
 namespace {

@@ -71,11 +71,7 @@ TEST(LightMeter, UnderADiscGetsItsEmissionTimesTheFormFactor)
 
 TEST(LightMeter, UnderARectangleGetsItsEmissionTimesTheFormFactor)
 {
-    const Quad lamp{.corner = {-0.3f, 2.5f, -0.2f},
-                    .edge_u = {1.0f, 0.0f, 0.0f},
-                    .edge_v = {0.0f, 0.0f, 0.7f},
-                    .albedo = glm::vec3(0.0f),
-                    .emission = glm::vec3(2000.0f)};
+    const Quad lamp = panel({-0.3f, 2.5f, -0.2f}, 1.0f, 0.7f, 0.0f, 2000.0f);
     const MeteredRoom room({black_floor(), lamp}, 0.0f, kNothingElse);
     const double factor = corner_factor(0.7, 0.5, 1.7) + corner_factor(0.3, 0.5, 1.7) +
                           corner_factor(0.7, 0.2, 1.7) + corner_factor(0.3, 0.2, 1.7);
@@ -84,11 +80,7 @@ TEST(LightMeter, UnderARectangleGetsItsEmissionTimesTheFormFactor)
 
 TEST(LightMeter, HalfOfARectangleBehindAScreenGivesTheOtherHalf)
 {
-    const Quad lamp{.corner = {-0.5f, 2.0f, -0.5f},
-                    .edge_u = {1.0f, 0.0f, 0.0f},
-                    .edge_v = {0.0f, 0.0f, 1.0f},
-                    .albedo = glm::vec3(0.0f),
-                    .emission = glm::vec3(1000.0f)};
+    const Quad lamp = panel({-0.5f, 2.0f, -0.5f}, 1.0f, 1.0f, 0.0f, 1000.0f);
     const Quad screen{.corner = {0.0f, 1.5f, -3.0f},
                       .edge_u = {3.0f, 0.0f, 0.0f},
                       .edge_v = {0.0f, 0.0f, 6.0f},
@@ -148,12 +140,8 @@ TEST(LightMeter, InAFurnaceGetsTheEmissionOverOneMinusTheAlbedoWhateverItFaces)
 TEST(LightMeter, ReflectedLightIsTheAlbedoTimesTheIrradianceOfWhatIsMet)
 {
     // A wall of one radiosity is a lamp that emits as much.
-    const Quad ceiling{.corner = {-0.5f, 2.0f, -0.5f},
-                       .edge_u = {1.0f, 0.0f, 0.0f},
-                       .edge_v = {0.0f, 0.0f, 1.0f},
-                       .albedo = glm::vec3(0.4f),
-                       .res_u = 3,
-                       .res_v = 3};
+    Quad ceiling = panel({-0.5f, 2.0f, -0.5f}, 1.0f, 1.0f, 0.4f);
+    ceiling.res_u = ceiling.res_v = 3;
     const MeteredRoom room({ceiling}, 500.0f, kNothingElse);
     expect_within(room.read({{0.0f, 1.0f, 0.0f}}),
                   0.4 * 500.0 * 4.0 * corner_factor(0.5, 0.5, 1.0));
@@ -161,10 +149,7 @@ TEST(LightMeter, ReflectedLightIsTheAlbedoTimesTheIrradianceOfWhatIsMet)
 
 TEST(LightMeter, TheStatedNoiseIsThatOfReadingsWithOtherSeeds)
 {
-    const Quad ceiling{.corner = {-0.5f, 2.0f, -0.5f},
-                       .edge_u = {1.0f, 0.0f, 0.0f},
-                       .edge_v = {0.0f, 0.0f, 1.0f},
-                       .albedo = glm::vec3(0.4f)};
+    const Quad ceiling = panel({-0.5f, 2.0f, -0.5f}, 1.0f, 1.0f, 0.4f);
     const MeteredRoom room({ceiling}, 500.0f, kNothingElse);
     constexpr int kReadings = 200;
     double sum = 0.0, squares = 0.0, stated = 0.0;

@@ -146,11 +146,7 @@ TEST(LightProbe, OfManyPointLampsIsTheirSum)
 // The light of a rectangle by quadrature over it: E/π Y(ω) cos dA / r².
 TEST(LightProbe, BesideAnEmissiveRectangleHasItsLight)
 {
-    const Quad lamp{.corner = {-0.3f, 2.5f, -0.2f},
-                    .edge_u = {1.0f, 0.0f, 0.0f},
-                    .edge_v = {0.0f, 0.0f, 0.7f},
-                    .albedo = glm::vec3(0.0f),
-                    .emission = glm::vec3(2000.0f)};
+    const Quad lamp = panel({-0.3f, 2.5f, -0.2f}, 1.0f, 0.7f, 0.0f, 2000.0f);
     const MeteredRoom room({speck(), lamp}, 0.0f, kNothingElse);
     for (const glm::dvec3& place : {glm::dvec3(0.0, 0.8, 0.0), glm::dvec3(0.5, 2.3, 0.1)}) {
         constexpr int kSteps = 1000;

@@ -17,6 +17,17 @@ inline constexpr double kPi = std::numbers::pi;
 /// A scene has nothing beside its quads.
 inline constexpr auto kNothingElse = [](Scene&) {};
 
+/// A rectangle that faces down, over x and z from its corner.
+inline support::Quad panel(const glm::vec3& corner, float width, float depth, float albedo,
+                           float emission = 0.0f)
+{
+    return {.corner = corner,
+            .edge_u = {width, 0.0f, 0.0f},
+            .edge_v = {0.0f, 0.0f, depth},
+            .albedo = glm::vec3(albedo),
+            .emission = glm::vec3(emission)};
+}
+
 class MeteredRoom {
 public:
     /// irradiance: of all lumels [lx]. `add`: what the scene has beside the quads.

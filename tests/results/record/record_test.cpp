@@ -74,6 +74,12 @@ std::string complaint(const Json& report)
     return test::input_error_of([&] { read(report); });
 }
 
+void expect_complaint(const Json& report, const std::string& words)
+{
+    const std::string said = complaint(report);
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+}
+
 /// Pointers to all values that are read of a record's report and are no objects or lists.
 std::vector<std::string> fields_of(const Json& report)
 {
@@ -195,33 +201,27 @@ TEST(BakeRecord, AMissingFieldIsNamed)
 {
     Json report = json_of(unusual());
     report["solver"]["options"].erase("batch");
-    const std::string said = complaint(report);
-    EXPECT_NE(said.find("out/report.json: /solver/options: \"batch\" is missing"),
-              std::string::npos)
-        << said;
+    expect_complaint(report, "out/report.json: /solver/options: \"batch\" is missing");
 }
 
 TEST(BakeRecord, AnUnknownMethodAndAnUnknownWordAreNamed)
 {
     Json report = json_of(unusual());
     report["solver"]["method"] = "magic";
-    EXPECT_NE(complaint(report).find("/solver/method"), std::string::npos) << complaint(report);
+    expect_complaint(report, "/solver/method");
     report = json_of(unusual());
     report["settings"]["only"] = "most";
-    const std::string said = complaint(report);
-    EXPECT_NE(said.find("/settings/only: is \"most\", but must be one of all, direct, indirect"),
-              std::string::npos)
-        << said;
+    expect_complaint(report,
+                     "/settings/only: is \"most\", but must be one of all, direct, indirect");
 }
 
 TEST(BakeRecord, OfAnotherFormIsRefused)
 {
     Json report = json_of(unusual());
     report["format"] = kReportFormat + 1;
-    EXPECT_NE(complaint(report).find("/format"), std::string::npos) << complaint(report);
+    expect_complaint(report, "/format");
     report.erase("format");
-    EXPECT_NE(complaint(report).find("bake the scene again"), std::string::npos)
-        << complaint(report);
+    expect_complaint(report, "bake the scene again");
 }
 
 TEST(BakeRecord, SaysWithWhichLibrariesAndWhen)

@@ -1,4 +1,4 @@
-#include "truth/closed_forms.h"
+#include "closed_forms.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 // [How] J. Howell, A Catalog of Radiation Heat Transfer Configuration Factors; C-11, C-14, C-41,
 //       B-3 and B-4 are its numbers.
 //
-// For tests and the reference only: solvers compute form factors of polygons by Lambert's edge sum
-// (atlas/near/form_factor.cpp), and are tested against these.
+// Solvers compute form factors of polygons by Lambert's edge sum (atlas/near/form_factor.cpp), and
+// are tested against these.
 //
 // A uniform plate of emission E lights a point or area by H = E F, with F its form factor to the
 // plate.
