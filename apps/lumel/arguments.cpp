@@ -49,9 +49,8 @@ Arguments parse_arguments(int count, char** values)
     Command program{.name = "lumel",
                     .help = "Lumel bakes the light of a glTF scene into lightmaps."};
     program.add("Options", {kHelp,
-                            {.names = "-V,--version",
-                             .help = "Display program version information and exit",
-                             .target = VersionFlag{}}});
+                            {"-V,--version", "", "Display program version information and exit",
+                             VersionFlag{}}});
     add_commands(program);
 
     const Parsed parsed = parse(program, count, values);

@@ -15,18 +15,15 @@ constexpr double kMaxCheckpointSeconds = 86'400.0;  // a day
 
 void add_resume_options(Command& command, BakeOptions& options)
 {
-    command.add(
-        kStopGroup,
-        {{.names = "--resume",
-          .help = "Go on with a bake that was killed or failed, from its checkpoint in the folder; "
+    command.add(kStopGroup,
+                {{"--resume", "",
+                  "Go on with a bake that was killed or failed, from its checkpoint in the folder; "
                   "begin anew if there is none (only links)",
-          .target = &options.resume},
-         {.names = "--checkpoint",
-          .type = "SECONDS",
-          .help = "Time between two checkpoints that --resume goes on from; 0: none (only links)",
-          .default_value = text_of(options.checkpoint_seconds),
-          .target = &options.checkpoint_seconds,
-          .check = between(0.0, kMaxCheckpointSeconds)}});
+                  &options.resume},
+                 {"--checkpoint", "SECONDS",
+                  "Time between two checkpoints that --resume goes on from; 0: none (only links)",
+                  &options.checkpoint_seconds, text_of(options.checkpoint_seconds),
+                  between(0.0, kMaxCheckpointSeconds)}});
 }
 
 /// Links that are to be kept.
@@ -37,38 +34,29 @@ struct GivenLinks {
 
 void add_keep_links_options(Command& command, GivenLinks& links)
 {
-    command.add(
-        kMethodGroup,
-        {{.names = "--keep-links",
-          .help = "Trace a fixed number of rays from each lumel and keep them in "
+    command.add(kMethodGroup,
+                {{"--keep-links", "",
+                  "Trace a fixed number of rays from each lumel and keep them in "
                   "scene.lumellinks, by which lumel relight lights the scene anew, and lumel "
                   "update follows what moves, at full resolution (only links)",
-          .target = &links.keep},
-         {.names = "--links",
-          .type = "N",
-          .help = "With --keep-links, rays that each lumel keeps: 4, 16, 64 or 256",
-          .default_value = text_of(links.rays),
-          .target = &links.rays,
-          .check = link_rays()}});
+                  &links.keep},
+                 {"--links", "N", "With --keep-links, rays that each lumel keeps: 4, 16, 64 or 256",
+                  &links.rays, text_of(links.rays), link_rays()}});
 }
 
 void add_file_options(Command& command, BakeArguments& bake)
 {
-    command.add(
-        kLightmapGroup,
-        {{.names = "--probes",
-          .type = "SPACING",
-          .help = "Also write probes.json, as lumel probes --spacing does: light probes this many "
+    command.add(kLightmapGroup,
+                {{"--probes", "SPACING",
+                  "Also write probes.json, as lumel probes --spacing does: light probes this many "
                   "metres apart; and put them into the glTF files as nodes",
-          .target = &bake.options.probe_spacing,
-          .check = positive()}});
+                  &bake.options.probe_spacing, "", positive()}});
     add_preview_option(command, bake.options.preview_width);
-    command.add(
-        kPictureGroup,
-        {{.names = "--html",
-          .help = "Also write report.html, a page to walk through the scene and read its light, as "
+    command.add(kPictureGroup,
+                {{"--html", "",
+                  "Also write report.html, a page to walk through the scene and read its light, as "
                   "lumel report does",
-          .target = &bake.page}});
+                  &bake.page}});
 }
 
 /// Throws Error{input} for options that links which are kept do not read.

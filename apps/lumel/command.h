@@ -30,13 +30,13 @@ using Target =
 /// Returns an empty string for a valid value, else the reason why it is not.
 using Check = std::function<std::string(const std::string& value)>;
 
-/// An option or an argument of a command.
+/// An option or an argument of a command: {names, type, help, target, default_value, check}.
 struct Option {
     std::string names;  ///< "-q,--quiet"; the name of an argument has no dash
     std::string type;   ///< of the value: "N", "FILE|R,G,B", "area|centre"
     std::string help;
-    std::string default_value;  ///< as --help prints it
     Target target;
+    std::string default_value;  ///< as --help prints it
     Check check;
     bool required = false;
     bool repeatable = false;

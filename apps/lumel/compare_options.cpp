@@ -23,16 +23,11 @@ Command compare_command()
                   .required = true}});
     command.add(
         "Comparison",
-        {{.names = "-o,--heat-map",
-          .type = "FILE",
-          .help = "PNG to write; white is a difference of 10 % of the mean",
-          .default_value = "A-vs-B.png beside A",
-          .target = &given->heat_map},
-         {.names = "--ignore-above",
-          .type = "VALUE",
-          .help = "Leave out texels that are brighter than this in B, such as lamps in a picture",
-          .target = &given->most,
-          .check = positive()}});
+        {{"-o,--heat-map", "FILE", "PNG to write; white is a difference of 10 % of the mean",
+          &given->heat_map, "A-vs-B.png beside A"},
+         {"--ignore-above", "VALUE",
+          "Leave out texels that are brighter than this in B, such as lamps in a picture",
+          &given->most, "", positive()}});
     add_json_flag(command, given->json);
     command.arguments = [given](const Command&) -> Arguments { return {*given}; };
     return command;

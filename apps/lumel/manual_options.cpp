@@ -35,8 +35,7 @@ Command help_command(const Command& program)
 {
     const auto name = std::make_shared<std::string>();
     Command command{.name = "help", .help = "Describe the program, or one of its commands"};
-    command.add(
-        {{.names = "command", .type = kCommandType, .help = "The command", .target = name.get()}});
+    command.add({{"command", kCommandType, "The command", name.get()}});
     command.arguments = [&program, name](const Command&) -> Arguments {
         return {TextArguments{help_of(program, *name)}};
     };

@@ -74,37 +74,29 @@ void add_places(Command& command, MeasureOptions& options)
           .default_value = "the scene's",
           .target = [&options](const std::string& text) { options.bounds = bounds_of(text); },
           .needs = "--plane"},
-         {.names = "--samples",
-          .type = "N",
-          .help = "Rays of a point over its hemisphere, and as many towards lights",
-          .default_value = text_of(options.samples),
-          .target = &options.samples,
-          .check = whole(kMinSamples, kMaxSamples)}});
+         {"--samples", "N", "Rays of a point over its hemisphere, and as many towards lights",
+          &options.samples, text_of(options.samples), whole(kMinSamples, kMaxSamples)}});
 }
 
 void add_files(Command& command, MeasureOptions& options)
 {
-    command.add(kFilesGroup,
-                {{.names = "--csv",
-                  .type = "FILE.csv",
-                  .help = "Write all points as a table",
-                  .target = &options.table},
-                 {.names = "--false-colour",
-                  .type = "FILE.png",
-                  .help = "Write a picture of the plane in false colours, with a legend in lux",
-                  .target = &options.picture,
-                  .needs = "--plane"},
-                 {.names = "--preview",
-                  .type = "FILE.png",
-                  .help = "Write the view of preview.png in false colours, with a legend in lux",
-                  .target = &options.preview},
-                 {.names = "--width",
-                  .type = "N",
-                  .help = "Width of that picture in pixels",
-                  .default_value = text_of(options.width),
-                  .target = &options.width,
-                  .check = whole(1, kLargestAtlas),
-                  .needs = "--preview"}});
+    command.add(
+        kFilesGroup,
+        {{"--csv", "FILE.csv", "Write all points as a table", &options.table},
+         {.names = "--false-colour",
+          .type = "FILE.png",
+          .help = "Write a picture of the plane in false colours, with a legend in lux",
+          .target = &options.picture,
+          .needs = "--plane"},
+         {"--preview", "FILE.png",
+          "Write the view of preview.png in false colours, with a legend in lux", &options.preview},
+         {.names = "--width",
+          .type = "N",
+          .help = "Width of that picture in pixels",
+          .default_value = text_of(options.width),
+          .target = &options.width,
+          .check = whole(1, kLargestAtlas),
+          .needs = "--preview"}});
 }
 
 }  // namespace

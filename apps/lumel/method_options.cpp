@@ -13,11 +13,9 @@ namespace {
 Option option_of(GivenMethod& given, const OptionInfo& info, const std::string& default_value)
 {
     const std::string name = info.name;
-    return {.names = "--" + name,
-            .type = info.type(),
-            .help = info.help,
-            .default_value = default_value,
-            .target = [&given, name](const std::string& value) { given.values[name] = value; }};
+    return {"--" + name, info.type(), info.help,
+            [&given, name](const std::string& value) { given.values[name] = value; },
+            default_value};
 }
 
 std::string default_of(const MethodInfo& method, const std::string& option)
@@ -82,11 +80,7 @@ void add_methods(Command& command, GivenMethod& given, const std::vector<std::st
                  const std::vector<OmittedOption>& omitted)
 {
     const std::vector<std::string_view> ids = some.empty() ? all_methods() : some;
-    Option solver{.names = "--solver",
-                  .type = listed(ids),
-                  .help = "Method, see lumel methods",
-                  .default_value = given.id,
-                  .target = &given.id};
+    Option solver{"--solver", listed(ids), "Method, see lumel methods", &given.id, given.id};
     if (!some.empty())
         solver.check = one_of(ids);
     command.add(kMethodGroup, {solver});

@@ -31,24 +31,13 @@ const Choices<Film> kFilms = {{"mp4", Film::mp4}, {"webm", Film::webm}, {"none",
 /// What is played.
 void add_animation_options(Command& command, PlayOptions& options)
 {
-    command.add(kAnimationGroup, {{.names = "--frames",
-                                   .type = "N",
-                                   .help = "Number of frames",
-                                   .default_value = "the animation's length",
-                                   .target = &options.frames,
-                                   .check = whole(1, kMaxFrames)},
-                                  {.names = "--fps",
-                                   .type = "N",
-                                   .help = "Frames per second of the animation",
-                                   .default_value = text_of(options.fps),
-                                   .target = &options.fps,
-                                   .check = between(1.0 / kMaxFps, kMaxFps)},
-                                  {.names = "--animation",
-                                   .type = "N",
-                                   .help = "Animation of the file by its number, from 0",
-                                   .default_value = text_of(options.animation),
-                                   .target = &options.animation,
-                                   .check = whole(0, kMaxAnimations)}});
+    command.add(kAnimationGroup,
+                {{"--frames", "N", "Number of frames", &options.frames, "the animation's length",
+                  whole(1, kMaxFrames)},
+                 {"--fps", "N", "Frames per second of the animation", &options.fps,
+                  text_of(options.fps), between(1.0 / kMaxFps, kMaxFps)},
+                 {"--animation", "N", "Animation of the file by its number, from 0",
+                  &options.animation, text_of(options.animation), whole(0, kMaxAnimations)}});
 }
 
 /// How closely light follows.
@@ -57,31 +46,21 @@ void add_follow_options(Command& command, PlayOptions& options)
     command.add(
         kAnimationGroup,
         {choice(options.redistribution, kRedistributions,
-                {.names = "--redistribution",
-                 .help = "With --solver progressive, how light follows a move: incremental shoots "
-                         "again past the old and the new position, as exact as a new solution; "
-                         "cross uses only views from what moves, which is faster where that is "
-                         "small"}),
-         {.names = "--leak",
-          .type = "F",
-          .help = "With --solver directions, the share of the running mean that each direction "
-                  "replaces: more follows faster and is noisier",
-          .default_value = text_of(options.leak),
-          .target = &options.leak,
-          .check = between(kMinLeak, kMaxLeak)},
-         {.names = "--links",
-          .type = "N",
-          .help = "With --solver links, rays that each lumel keeps: 4, 16, 64 or 256",
-          .default_value = text_of(options.link_rays),
-          .target = &options.link_rays,
-          .check = link_rays()},
-         {.names = "--budget",
-          .type = "MS",
-          .help = "Milliseconds for the light of each frame; where they are not enough it lags "
-                  "behind",
-          .default_value = "as needed",
-          .target = &options.budget_ms,
-          .check = positive()},
+                {"--redistribution", "",
+                 "With --solver progressive, how light follows a move: incremental shoots "
+                 "again past the old and the new position, as exact as a new solution; "
+                 "cross uses only views from what moves, which is faster where that is "
+                 "small"}),
+         {"--leak", "F",
+          "With --solver directions, the share of the running mean that each direction "
+          "replaces: more follows faster and is noisier",
+          &options.leak, text_of(options.leak), between(kMinLeak, kMaxLeak)},
+         {"--links", "N", "With --solver links, rays that each lumel keeps: 4, 16, 64 or 256",
+          &options.link_rays, text_of(options.link_rays), link_rays()},
+         {"--budget", "MS",
+          "Milliseconds for the light of each frame; where they are not enough it lags "
+          "behind",
+          &options.budget_ms, "as needed", positive()},
          {.names = "--residual",
           .type = "PERCENT",
           .help = "Light left to be shot, or to bounce, as a part of all, at which a solution is "
@@ -95,17 +74,12 @@ void add_follow_options(Command& command, PlayOptions& options)
 
 void add_film_options(Command& command, PlayOptions& options)
 {
-    command.add(
-        kAnimationGroup,
-        {choice(options.film, kFilms,
-                {.names = "--film",
-                 .help = "Film of the frames, where ffmpeg is installed: play.mp4 or play.webm"}),
-         {.names = "--exposure",
-          .type = "F",
-          .help = "Factor from cd/m2 to brightness, the same for all frames",
-          .default_value = "as suits the first frame",
-          .target = &options.exposure,
-          .check = positive()}});
+    command.add(kAnimationGroup,
+                {choice(options.film, kFilms,
+                        {"--film", "",
+                         "Film of the frames, where ffmpeg is installed: play.mp4 or play.webm"}),
+                 {"--exposure", "F", "Factor from cd/m2 to brightness, the same for all frames",
+                  &options.exposure, "as suits the first frame", positive()}});
 }
 
 /// Throws Error{input} if an option was given that is of another method.

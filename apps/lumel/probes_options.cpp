@@ -43,11 +43,8 @@ void add_places(Command& command, ProbesOptions& options)
 {
     command.add(
         kPlacesGroup,
-        {{.names = "--spacing",
-          .type = "F",
-          .help = "Grid of probes, this many metres apart, over the scene",
-          .target = &options.spacing,
-          .check = positive()},
+        {{"--spacing", "F", "Grid of probes, this many metres apart, over the scene",
+          &options.spacing, "", positive()},
          {.names = "--bounds",
           .type = "X0,Y0,Z0,X1,Y1,Z1",
           .help = "Corners of the grid in metres",
@@ -61,13 +58,10 @@ void add_places(Command& command, ProbesOptions& options)
           .target =
               [&options](const std::string& text) { options.places.push_back(place_of(text)); },
           .repeatable = true},
-         {.names = "--samples",
-          .type = "N",
-          .help = "Rays of a probe over the sphere, and as many towards lights, at least; up to 64 "
-                  "times as many where their noise is above 0.5 %",
-          .default_value = text_of(options.samples),
-          .target = &options.samples,
-          .check = whole(kMinSamples, kMaxSamples)}});
+         {"--samples", "N",
+          "Rays of a probe over the sphere, and as many towards lights, at least; up to 64 "
+          "times as many where their noise is above 0.5 %",
+          &options.samples, text_of(options.samples), whole(kMinSamples, kMaxSamples)}});
 }
 
 }  // namespace
@@ -80,11 +74,8 @@ Command probes_command()
         .help = "Find the light in the air of a bake: spherical harmonics at a grid or points"};
     command.add({bake_argument(given->folder)});
     add_places(command, given->options);
-    command.add(kFilesGroup, {{.names = "-o,--output",
-                               .type = "FILE.json",
-                               .help = "File to write",
-                               .default_value = "probes.json in the folder",
-                               .target = &given->options.file}});
+    command.add(kFilesGroup, {{"-o,--output", "FILE.json", "File to write", &given->options.file,
+                               "probes.json in the folder"}});
     add_talk_options(command, given->talk);
     command.arguments = [given](const Command&) -> Arguments { return {*given}; };
     return command;

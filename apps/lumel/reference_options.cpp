@@ -23,26 +23,18 @@ Command reference_command()
     Command command{.name = "reference",
                     .help = "Compute the same map by path tracing on the processor"};
     command.add({scene_argument(given->scene), result_argument(given->folder)});
-    command.add(kMethodGroup,
-                {{.names = "--spp",
-                  .type = "N",
-                  .help = "Paths per lumel",
-                  .default_value = text_of(reference.samples_per_lumel),
-                  .target = &reference.samples_per_lumel,
-                  .check = whole(1, kMaxPaths)},
-                 {.names = "--seed",
-                  .type = "N",
-                  .help = "Random seed",
-                  .default_value = text_of(reference.seed),
-                  .target = &reference.seed,
-                  .check = whole(0, std::numeric_limits<std::uint32_t>::max())},
-                 choice(reference.rule, kSampleRules,
-                        {.names = "--sampling",
-                         .help = "Receive over the covered area of a lumel (the default) or at its "
-                                 "centre"}),
-                 {.names = "--gloss",
-                  .help = "Include glossy reflection between surfaces, as --solver glossy does",
-                  .target = [given = given.get()] { given->materials = MaterialModel::glossy; }}});
+    command.add(
+        kMethodGroup,
+        {{"--spp", "N", "Paths per lumel", &reference.samples_per_lumel,
+          text_of(reference.samples_per_lumel), whole(1, kMaxPaths)},
+         {"--seed", "N", "Random seed", &reference.seed, text_of(reference.seed),
+          whole(0, std::numeric_limits<std::uint32_t>::max())},
+         choice(reference.rule, kSampleRules,
+                {"--sampling", "",
+                 "Receive over the covered area of a lumel (the default) or at its "
+                 "centre"}),
+         {"--gloss", "", "Include glossy reflection between surfaces, as --solver glossy does",
+          [given = given.get()] { given->materials = MaterialModel::glossy; }}});
     add_only_option(command, reference.parts);
     add_light_options(command, given->options.lights);
     add_atlas_options(command, given->options.atlas);

@@ -21,12 +21,10 @@ void add_film_options(Command& command, FilmOptions& film)
 {
     command.add(
         "Animation",
-        {{.names = "--frames",
-          .type = "N",
-          .help = "Make so many pictures of the scene's animation, each of which goes on from the "
-                  "light of the one before",
-          .target = &film.frames,
-          .check = whole(1, kMaxFrames)},
+        {{"--frames", "N",
+          "Make so many pictures of the scene's animation, each of which goes on from the "
+          "light of the one before",
+          &film.frames, "", whole(1, kMaxFrames)},
          {.names = "--fps",
           .type = "N",
           .help = "Frames per second of the animation",
@@ -57,37 +55,19 @@ void add_film_options(Command& command, FilmOptions& film)
 
 void add_sample_options(Command& command, RenderOptions& options)
 {
-    command.add(
-        kPictureGroup,
-        {{.names = "--height",
-          .type = "N",
-          .help = "Height of the picture in pixels",
-          .default_value = "from the camera",
-          .target = &options.height,
-          .check = whole(1, kLargestAtlas)},
-         {.names = "--places",
-          .type = "N",
-          .help = "Sample points in each pixel",
-          .default_value = text_of(options.sets),
-          .target = &options.sets,
-          .check = whole(1, kMaxPlaces)},
-         {.names = "--eye-shots",
-          .type = "N",
-          .help = "Shooters for glossy reflections in view, after those of the solution",
-          .default_value = text_of(options.shots),
-          .target = &options.shots,
-          .check = whole(0, kMaxShots)},
-         {.names = "--lobe-rays",
-          .type = "N",
-          .help = "Rays along the lobe at each sample point",
-          .default_value = text_of(options.rays),
-          .target = &options.rays,
-          .check = whole(0, kMaxRays)},
-         {.names = "--paths",
-          .type = "N",
-          .help = "Trace this many paths per pixel on the processor instead, to compare with",
-          .target = &options.paths,
-          .check = whole(1, kMaxPaths)}});
+    command.add(kPictureGroup,
+                {{"--height", "N", "Height of the picture in pixels", &options.height,
+                  "from the camera", whole(1, kLargestAtlas)},
+                 {"--places", "N", "Sample points in each pixel", &options.sets,
+                  text_of(options.sets), whole(1, kMaxPlaces)},
+                 {"--eye-shots", "N",
+                  "Shooters for glossy reflections in view, after those of the solution",
+                  &options.shots, text_of(options.shots), whole(0, kMaxShots)},
+                 {"--lobe-rays", "N", "Rays along the lobe at each sample point", &options.rays,
+                  text_of(options.rays), whole(0, kMaxRays)},
+                 {"--paths", "N",
+                  "Trace this many paths per pixel on the processor instead, to compare with",
+                  &options.paths, "", whole(1, kMaxPaths)}});
 }
 
 }  // namespace

@@ -19,13 +19,10 @@ Command update_command()
                   .help = "The edited scene, a .gltf or .glb file",
                   .target = &given->scene,
                   .required = true}});
-    command.add(kStopGroup,
-                {{.names = "--residual",
-                  .type = "PERCENT",
-                  .help = "Stop at this error of the correction, as a part of all light",
-                  .default_value = text_of(100.0 * options.residual),
-                  .target = [&options](double percent) { options.residual = percent / 100.0; },
-                  .check = positive()}});
+    command.add(kStopGroup, {{"--residual", "PERCENT",
+                              "Stop at this error of the correction, as a part of all light",
+                              [&options](double percent) { options.residual = percent / 100.0; },
+                              text_of(100.0 * options.residual), positive()}});
     add_light_options(command, options.lights);
     add_device_option(command, options.device);
     add_preview_option(command, options.preview_width);

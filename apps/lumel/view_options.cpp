@@ -31,31 +31,20 @@ std::string commands_text()
 
 void add_script_options(Command& command, ViewArguments& view)
 {
-    command.add(kSessionGroup,
-                {{.names = "--script",
-                  .type = "FILE.txt",
-                  .help = "File of commands that are played, see below",
-                  .target = &view.run.script},
-                 {.names = "--headless",
-                  .help = "Open no window: play the script alone",
-                  .target = &view.headless},
-                 {.names = "--folder",
-                  .type = "FOLDER",
-                  .help = "Where the files of the script go",
-                  .default_value = "the current one",
-                  .target = &view.run.folder},
-                 {.names = "--movable",
-                  .type = "NAME",
-                  .help = "Name of what may be moved, turned and deleted; may be repeated",
-                  .default_value = "what is small beside the scene",
-                  .target = &view.options.movable,
-                  .repeatable = true},
-                 {.names = "--budget",
-                  .type = "MS",
-                  .help = "Milliseconds for the light of each frame",
-                  .default_value = text_of(view.options.budget_ms),
-                  .target = &view.options.budget_ms,
-                  .check = positive()}});
+    command.add(
+        kSessionGroup,
+        {{"--script", "FILE.txt", "File of commands that are played, see below", &view.run.script},
+         {"--headless", "", "Open no window: play the script alone", &view.headless},
+         {"--folder", "FOLDER", "Where the files of the script go", &view.run.folder,
+          "the current one"},
+         {.names = "--movable",
+          .type = "NAME",
+          .help = "Name of what may be moved, turned and deleted; may be repeated",
+          .default_value = "what is small beside the scene",
+          .target = &view.options.movable,
+          .repeatable = true},
+         {"--budget", "MS", "Milliseconds for the light of each frame", &view.options.budget_ms,
+          text_of(view.options.budget_ms), positive()}});
 }
 
 void add_light_of_session(Command& command, SessionOptions& options)
@@ -70,30 +59,15 @@ void add_light_of_session(Command& command, SessionOptions& options)
               [&options](const std::string& id) {
                   options.solver = SolverOptions{.method = method_of(id).defaults()};
               }},
-         {.names = "--links",
-          .type = "N",
-          .help = "Rays that each lumel keeps: 4, 16, 64 or 256",
-          .default_value = text_of(options.link_rays),
-          .target = &options.link_rays,
-          .check = link_rays()},
-         {.names = "--residual",
-          .type = "PERCENT",
-          .help = "Light left to bounce, as a part of all, at which light is at rest",
-          .default_value = text_of(100.0 * options.residual),
-          .target = [&options](double percent) { options.residual = percent / 100.0; },
-          .check = positive()},
-         {.names = "--seed",
-          .type = "N",
-          .help = "Random seed",
-          .default_value = text_of(options.seed),
-          .target = &options.seed,
-          .check = whole(0, kMaxSeed)},
-         {.names = "--animation",
-          .type = "N",
-          .help = "Animation of the file by its number, from 0",
-          .default_value = text_of(options.animation),
-          .target = &options.animation,
-          .check = whole(0, kMaxAnimations)}});
+         {"--links", "N", "Rays that each lumel keeps: 4, 16, 64 or 256", &options.link_rays,
+          text_of(options.link_rays), link_rays()},
+         {"--residual", "PERCENT",
+          "Light left to bounce, as a part of all, at which light is at rest",
+          [&options](double percent) { options.residual = percent / 100.0; },
+          text_of(100.0 * options.residual), positive()},
+         {"--seed", "N", "Random seed", &options.seed, text_of(options.seed), whole(0, kMaxSeed)},
+         {"--animation", "N", "Animation of the file by its number, from 0", &options.animation,
+          text_of(options.animation), whole(0, kMaxAnimations)}});
 }
 
 }  // namespace

@@ -32,12 +32,8 @@ void add_place_options(Command& command, WhyOptions& options)
           .target = set_texel,
           .check = whole(0, kLargestAtlas - 1),
           .excludes = "--lumel"},
-         {.names = "--page",
-          .type = "N",
-          .help = "Of several pages of the lightmap the one that is meant",
-          .default_value = text_of(options.page),
-          .target = &options.page,
-          .check = whole(0, kMaxPages - 1)}});
+         {"--page", "N", "Of several pages of the lightmap the one that is meant", &options.page,
+          text_of(options.page), whole(0, kMaxPages - 1)}});
 }
 
 }  // namespace
@@ -51,12 +47,8 @@ Command why_command()
         .help = "List what sends light to a point of a baked lightmap, and show it in why.png"};
     command.add({bake_argument(given->folder)});
     add_place_options(command, options);
-    command.add(kPictureGroup, {{.names = "--width",
-                                 .type = "N",
-                                 .help = "Width of why.png in pixels; 0: none",
-                                 .default_value = text_of(options.width),
-                                 .target = &options.width,
-                                 .check = whole(0, kLargestAtlas)}});
+    command.add(kPictureGroup, {{"--width", "N", "Width of why.png in pixels; 0: none",
+                                 &options.width, text_of(options.width), whole(0, kLargestAtlas)}});
     add_device_option(command, options.device);
     add_talk_options(command, given->talk);
     command.arguments = [given](const Command& parsed) -> Arguments {

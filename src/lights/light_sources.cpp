@@ -24,7 +24,7 @@ std::string name_of(const Scene& scene, std::uint32_t instance)
 }
 
 /// Instances with an emissive lumel that is open.
-std::vector<std::uint32_t> shining_instances(const Scene& scene, const Lumels& lumels)
+std::vector<std::uint32_t> shining_instances(const Lumels& lumels)
 {
     std::set<std::uint32_t> shining;
     for (const Lumel& lumel : lumels.lumels)
@@ -101,7 +101,7 @@ std::vector<LightSource> light_sources(const Scene& scene, const Lumels& lumels)
         if (shines(scene.lights[i]))
             named(sources, scene.lights[i].name).lights.push_back(i);
 
-    const std::vector<std::uint32_t> instances = shining_instances(scene, lumels);
+    const std::vector<std::uint32_t> instances = shining_instances(lumels);
     for (const std::uint32_t i : instances) {
         const std::vector<std::string> materials = shining_materials(scene, i);
         const bool by_material = instances.size() > kMaxEmitters && !materials.empty();

@@ -289,12 +289,12 @@ TEST(Senders, AddUpToTheLightOfALumel)
         const Senders senders = find_senders(world.scene, world.rays, world.atlas, world.lumels,
                                              irradiance, i, {.rays = 4096});
         glm::vec3 sum(0.0f);
-        for (const Sender& sender : senders.list) {
+        for (const Contributor& sender : senders.list) {
             sum += sender.light;
-            sky = sky || sender.kind == Sender::Kind::sky;
-            lamp = lamp || (sender.kind == Sender::Kind::lamp &&
+            sky = sky || sender.kind == Contributor::Kind::sky;
+            lamp = lamp || (sender.kind == Contributor::Kind::lamp &&
                             world.scene.lights[sender.index].name == "lamp");
-            surface = surface || sender.kind == Sender::Kind::surface;
+            surface = surface || sender.kind == Contributor::Kind::surface;
         }
         EXPECT_NEAR(luminance(sum), luminance(senders.light), 1e-4 * luminance(sum));
         found += luminance(senders.light);

@@ -36,7 +36,7 @@ SourceEstimate estimate(float low, float high, int side)
     shadows.cast(*cast_on_host(rays));
     SourceEstimate found;
     for (std::uint32_t k = 0; k < shadows.size(); ++k)
-        found.add(shadows.sample(k), shadows.passing(k));
+        found.add(shadows.sample(k), shadows.transmittance(k));
     return found;
 }
 
@@ -75,7 +75,7 @@ TEST(ShadowRays, AreNotCastWhereNothingIsSent)
     const RayScene rays(scene);
     shadows.cast(*cast_on_host(rays));
     EXPECT_EQ(shadows.size(), 1u);
-    EXPECT_EQ(shadows.passing(0), glm::vec3(0.0f));
+    EXPECT_EQ(shadows.transmittance(0), glm::vec3(0.0f));
 }
 
 }  // namespace

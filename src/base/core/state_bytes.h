@@ -59,7 +59,7 @@ private:
         if constexpr (IsPlain<T, StateWriter>)
             bytes(&value, sizeof value);
         else
-            const_cast<T&>(value).state(*this);  // which only a reader changes
+            const_cast<T&>(value).state(*this);  // changed only by a reader
     }
     template <class T, std::size_t N>
     void write(const std::array<T, N>& values)

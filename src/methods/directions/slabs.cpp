@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "base/core/sphere.h"
+#include "gpu/pacer.h"
+#include "raster/parallel/illumination_maps.h"
 #include "rays/paths/samples.h"
 
 namespace lumel {

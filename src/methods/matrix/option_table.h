@@ -12,7 +12,7 @@ namespace lumel {
 inline constexpr std::int64_t kMinPatches = 8, kMaxPatches = 16384;
 inline constexpr std::int64_t kMaxReflections = 1'000'000;
 
-inline constexpr OptionWord kAllBounces[] = {{"all", 0}};
+inline constexpr OptionWord kAllReflections[] = {{"all", 0}};
 inline constexpr OptionWord kForms[] = {{"tiles", MatrixForm::tiles}, {"bc1", MatrixForm::bc1}};
 
 inline constexpr OptionInfo kMatrixOptions[] = {
@@ -30,7 +30,7 @@ inline constexpr OptionInfo kMatrixOptions[] = {
      .member = member<&MatrixOptions::transport, &TransportOptions::patches>},
     {.name = "bounces",
      .help = "Reflections that count",
-     .words = kAllBounces,
+     .words = kAllReflections,
      .unit = "K",
      .lowest = 1,
      .highest = kMaxReflections,

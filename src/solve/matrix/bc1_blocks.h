@@ -35,10 +35,10 @@ private:
     /// v / largest of its channel
     float entry_of(float code) const;
 
-    float step_;  ///< of ln(v) from one code to the next
+    float step_;  ///< ln(v) from one code to the next
     float offset_;
-    std::array<float, 3> scale_;  ///< of the channels' largest
-    /// By codes in sixths, which all mixtures of two codes are.
+    std::array<float, 3> scale_;  ///< largest of each channel, relative to the largest of all
+    /// Entry by code in sixths, in which all mixtures of two codes are whole.
     std::array<float, 255 * 6 + 1> entry_;
 };
 

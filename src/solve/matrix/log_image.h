@@ -16,9 +16,9 @@ struct LogOptions {
     float exact_share = 0.04f;  ///< of each row of each channel, kept as it is; 0…1
     float offset = 12.0f;       ///< entries below e^-offset of the largest become 0
     Reordering reordering = Reordering::rows_and_columns;
-    /// True: an entry that is kept exactly leaves the largest of the others in its place, and the
-    /// exact part holds the difference. False, as the paper: it leaves a 0, and whatever becomes of
-    /// that 0 is added to it.
+    /// True: the image holds the row's largest other entry in place of an exact one, and the exact
+    /// part the difference from what is stored. False, as the paper: the image holds 0 there, and
+    /// what the blocks make of that 0 is added to the exact entry.
     bool mend = true;
 };
 
@@ -28,13 +28,13 @@ struct LogImage {
     std::array<std::vector<float>, 3> channel;
 };
 
-/// All that makes a matrix of its image.
+/// Parameters that turn an image back into its matrix.
 struct LogDecoding {
     std::uint32_t size = 0;          ///< rows of the matrix
     std::array<float, 3> largest{};  ///< of each channel, without the exact part
     float offset = 0.0f;
-    std::vector<std::uint32_t> row_order, column_order;  ///< [size] row of the matrix; or empty
-    SparsePart exact;                                    ///< added, in the matrix's order
+    std::vector<std::uint32_t> row_order, column_order;  ///< [size] index in the matrix; or empty
+    SparsePart exact;                                    ///< added to the matrix, in its order
 
     template <class Archive>
     void state(Archive& archive)
@@ -54,7 +54,7 @@ void mend(LogDecoding& decoding, const LogImage& stored);
 
 ColorMatrix from_logarithms(const LogImage& stored, const LogDecoding& decoding);
 
-/// Place (i, j) gets what was at (rows[i], columns[j]).
+/// Moves the code at (rows[i], columns[j]) to (i, j).
 LogImage reordered(const LogImage& image, std::span<const std::uint32_t> rows,
                    std::span<const std::uint32_t> columns);
 

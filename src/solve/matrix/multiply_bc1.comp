@@ -14,9 +14,7 @@ uniform sampler2D codes;
 layout(scalar) readonly buffer In { float received[]; };
 layout(scalar) writeonly buffer Out { float sent[]; };
 
-const uint kSums = kBc1Rows * kStates;
-
-shared vec3 sums[kSums][kBc1Lanes];
+shared vec3 sums[kBc1Rows][kBc1Lanes];
 
 uint plane_of(uint state, uint channel)
 {
@@ -26,16 +24,33 @@ uint plane_of(uint state, uint channel)
 vec3 entry(uint row, uint column)
 {
     const vec3 code = texelFetch(codes, ivec2(column, row), 0).rgb * kLogCodes;
-    return mix(exp2(code * p.log_step + p.log_factor), vec3(0.0), lessThan(code, vec3(kMinLogCode)));
+    const vec3 value = exp2(code * p.log_step + p.log_factor);
+    return mix(value, vec3(0.0), lessThan(code, vec3(kMinLogCode)));
+}
+
+// Adds up what the lanes hold of each row of one state, and writes the totals.
+void write_sums(uint lane, uint first_row, uint state)
+{
+    for (uint width = kBc1Lanes / 2u; width > 0u; width /= 2u) {
+        barrier();
+        if (lane < width)
+            for (uint row = 0u; row < kBc1Rows; ++row)
+                sums[row][lane] += sums[row][lane + width];
+    }
+    barrier();
+    if (lane < kBc1Rows && first_row + lane < p.width)
+        for (uint c = 0u; c < 3u; ++c)
+            sent[plane_of(state, c) + first_row + lane] = sums[lane][0][c];
 }
 
 void main()
 {
     const uint lane = gl_LocalInvocationID.x;
     const uint first_row = gl_WorkGroupID.x * kBc1Rows;
-    vec3 sum[kSums];
-    for (uint s = 0u; s < kSums; ++s)
-        sum[s] = vec3(0.0);
+    vec3 sum[kStates][kBc1Rows];
+    for (uint s = 0u; s < kStates; ++s)
+        for (uint row = 0u; row < kBc1Rows; ++row)
+            sum[s][row] = vec3(0.0);
     for (uint column = lane; column < p.width; column += kBc1Lanes) {
         vec3 x[kStates];
         for (uint s = 0u; s < kStates; ++s)
@@ -44,20 +59,13 @@ void main()
         for (uint row = 0u; row < kBc1Rows; ++row) {
             const vec3 factor = entry(first_row + row, column);
             for (uint s = 0u; s < kStates; ++s)
-                sum[s * kBc1Rows + row] += factor * x[s];
+                sum[s][row] += factor * x[s];
         }
     }
-    for (uint s = 0u; s < kSums; ++s)
-        sums[s][lane] = sum[s];
-    for (uint width = kBc1Lanes / 2u; width > 0u; width /= 2u) {
+    for (uint s = 0u; s < kStates; ++s) {
         barrier();
-        if (lane < width)
-            for (uint s = 0u; s < kSums; ++s)
-                sums[s][lane] += sums[s][lane + width];
+        for (uint row = 0u; row < kBc1Rows; ++row)
+            sums[row][lane] = sum[s][row];
+        write_sums(lane, first_row, s);
     }
-    barrier();
-    for (uint s = lane; s < kSums; s += kBc1Lanes)
-        if (first_row + s % kBc1Rows < p.width)
-            for (uint c = 0u; c < 3u; ++c)
-                sent[plane_of(s / kBc1Rows, c) + first_row + s % kBc1Rows] = sums[s][0][c];
 }

@@ -10,7 +10,7 @@
 namespace lumel {
 namespace {
 
-/// Each has a sum for every row of a group in registers.
+/// States multiplied at once; each takes kBc1Rows sums in registers.
 constexpr std::uint32_t kMaxStates = 4;
 
 constexpr float kMinLargest = 1e-37f;  // a channel without light has a logarithm too

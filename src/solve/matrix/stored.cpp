@@ -1,4 +1,5 @@
-// The form's number, then the state of the form. What is read is checked before anyone may use it.
+// The form's number, then the state of the form. Values are checked before they are used as
+// indices.
 
 #include "solve/matrix/stored.h"
 
@@ -13,7 +14,7 @@
 namespace lumel {
 namespace {
 
-/// Numbers of forms. 0, codes of single entries, and 1, low rank, are read no longer.
+/// Numbers of forms. 0, codes of single entries, and 1, low rank, are no longer read.
 constexpr std::uint32_t kNoLongerRead = 1, kTiles = 2, kBc1 = 3;
 
 bool is_permutation(const std::vector<std::uint32_t>& order, std::size_t size)
