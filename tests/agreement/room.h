@@ -1,5 +1,5 @@
 #pragma once
-// The room that every engine lights, edited as the rows of the table need it, and its reference.
+// The room that every engine lights, its edits, and their path-traced references.
 
 #include <map>
 #include <string>
@@ -30,13 +30,13 @@ private:
     std::map<Room, std::string> paths_;
 };
 
-/// Light that an engine found, with its lumels.
+/// Irradiance from an engine, with the engine's lumels.
 struct Found {
     Lumels lumels;
     std::vector<glm::vec3> irradiance;  ///< [N] [lx]
 };
 
-/// Parts of the mean light; the reference's own noise is not in them.
+/// Relative to the mean irradiance, without the noise of the reference.
 struct Deviation {
     double rmse = 0.0, bias = 0.0;
 };

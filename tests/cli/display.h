@@ -29,7 +29,7 @@ inline bool has_program(const std::string& name)
     return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-/// An X server of its own, whose pixels lie in a file. It ends with this, or with the test program.
+/// An X server whose pixels are in a file. It ends with this object, or with the test program.
 class Display {
 public:
     Display()
@@ -74,7 +74,7 @@ public:
                                            bytes_of(place_.path("errors")));
     }
 
-    /// Exit code of xdotool, which is ended after half a minute.
+    /// Returns the exit code of xdotool, which is stopped after 30 s.
     int try_hand(const std::string& does) const
     {
         return std::system(
@@ -112,14 +112,14 @@ private:
         prctl(PR_SET_PDEATHSIG, SIGTERM);
         const std::string number = std::to_string(number_to), folder = place_.path("");
         dup2(open(place_.path("errors").c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
-        // Without -noreset it starts over whenever the last client leaves, and turns away who comes
-        // meanwhile.
+        // Without -noreset the server restarts whenever its last client leaves, and refuses clients
+        // that connect meanwhile.
         execlp("Xvfb", "Xvfb", "-noreset", "-displayfd", number.c_str(), "-screen", "0",
                "800x600x24", "-fbdir", folder.c_str(), "-nolisten", "tcp",
                static_cast<char*>(nullptr));
         _exit(127);
     }
-    /// Empty if the server ends, or has none in time.
+    /// Returns the display number; empty if the server ends or takes longer than kPatience.
     static std::string read_number(int from)
     {
         constexpr int kWait = int(std::chrono::milliseconds(kPatience).count());
@@ -135,7 +135,7 @@ private:
     }
 
     const Workplace place_;
-    mutable pid_t process_ = -1;  ///< -1: it has ended
+    mutable pid_t process_ = -1;  ///< -1: ended
     mutable std::string end_;
     std::string name_;
 };

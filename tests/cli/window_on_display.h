@@ -23,8 +23,8 @@ namespace lumel::test {
 
 using Json = nlohmann::json;
 
-/// A window that plays a script and then stays, until it is closed. Waits end early if the window
-/// or its display does, and say so.
+/// A window that plays a script and then stays open until it is closed. Waits end as soon as the
+/// window or its display has ended; their failure names what was missing.
 class Window {
 public:
     Window(const Display& display, const std::string& script,
@@ -53,7 +53,7 @@ public:
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// Waits until `truth` holds. what: the sentence of a failure.
+    /// Waits until `truth` holds, for at most kPatience. what: the sentence of a failure.
     template <class Truth>
     ::testing::AssertionResult wait_until(const std::string& what, const Truth& truth) const
     {
@@ -82,27 +82,27 @@ public:
         });
     }
 
-    /// The picture that it shows, by the key P. All that was done before is in it: the window takes
-    /// keys in their order, and shows a frame after each.
+    /// Returns the picture that the key P writes. All earlier input is in it: the window handles
+    /// events in their order.
     Picture shoot()
     {
         const std::string name = fmt::format("picture-{}.png", ++pictures_);
-        // A key is not heard while light is traced.
-        constexpr auto kHeard = std::chrono::seconds(5);
+        // Keys pressed while links are traced are lost: the key is pressed again.
+        constexpr auto kBetweenKeys = std::chrono::seconds(5);
         auto again = std::chrono::steady_clock::now();
         EXPECT_TRUE(wait_until("no " + name + " by the key P", [&] {
             if (is_written(name))
                 return true;
             if (const auto now = std::chrono::steady_clock::now(); now >= again) {
                 display_->hand("key p");
-                again = now + kHeard;
+                again = now + kBetweenKeys;
             }
             return false;
         }));
         return is_written(name) ? read_picture(place.path("out/" + name)) : Picture{};
     }
-    /// Sends mouse and keys, and waits until the window has taken them: a click is let go in the
-    /// frame after that of its press.
+    /// Sends mouse and keys, and waits until the window has handled them: two pictures, since a
+    /// button is released in the frame after its press.
     void hand(const std::string& does)
     {
         display_->hand(does);

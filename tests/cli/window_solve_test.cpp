@@ -21,8 +21,8 @@ public:
         point(y);
         window_->hand("click 1");
     }
-    /// Writes into the field at a height. Keys are held for longer than a frame takes: of a key
-    /// that goes down and up within one, the field learns nothing.
+    /// Writes into the field at a height. Keys are held for longer than a frame: the field misses
+    /// keys that go down and up within one.
     void type(int y, const std::string& text) const
     {
         point(y);

@@ -1,4 +1,4 @@
-// Previews of five bakes look as they did: against pictures that ./test --golden renews.
+// Previews of five bakes against stored pictures, which ./test --golden renews.
 
 #include <array>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 #pragma once
-// The difference of two pictures as an eye sees it.
+// Perceptual difference of two pictures.
 
 #include <vector>
 
@@ -8,13 +8,12 @@
 namespace lumel::test {
 
 /// [height][width] Distance of the colours in CIE L*a*b* (ΔE 1976; 2.3 is just noticeable), after a
-/// blur as of an eye that cannot tell a pixel from the next: noise of single pixels counts little,
-/// a shadow that is elsewhere counts whole.
+/// Gaussian blur of one pixel: noise of single pixels counts little, a moved shadow in full.
 std::vector<float> perceived_difference(const Picture& a, const Picture& b);
 
 struct Perceived {
     double mean = 0.0;
-    double high = 0.0;  ///< that 1 % of the pixels exceed
+    double high = 0.0;  ///< 99th percentile
 };
 Perceived summary_of(std::vector<float> difference);
 
