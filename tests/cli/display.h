@@ -43,9 +43,10 @@ public:
             become_server(ends[1]);
         }
         close(ends[1]);
-        name_ = ":" + read_number(ends[0]);
+        name_ = read_number(ends[0]);
+        name_.insert(name_.begin(), ':');
         close(ends[0]);
-        if (name_ == ":")
+        if (name_.size() == 1)
             throw std::runtime_error("Xvfb does not start: " + missing());
     }
     ~Display()

@@ -10,7 +10,7 @@
 #include "base/core/log.h"
 #include "jobs/solve/memory_plan.h"
 #include "jobs/solve/setting.h"
-#include "solve/solver/solver.h"
+#include "methods/methods.h"
 
 namespace lumel {
 namespace {
