@@ -183,7 +183,7 @@ TEST(Names, StandInValidationMessages)
 TEST(Names, AreTheLineOfSourceWhereNoneIsGiven)
 {
     EXPECT_EQ(Name::of_line().text(), "gpu_test.cpp:" + std::to_string(__LINE__));
-    EXPECT_EQ(Name::of_line("/home/me/src/lumel/src/solve/glossy.cpp", 7).text(),
+    EXPECT_EQ(Name::of_line("/home/me/src/lumel/src/methods/glossy/glossy.cpp", 7).text(),
               "methods/glossy/glossy.cpp:7");
     EXPECT_EQ(Name("sums").text(), "sums");
 }
