@@ -32,8 +32,10 @@ struct Lit {
 
     static BakeOptions options(MatrixForm form)
     {
+        MatrixOptions method{.form = form};
+        method.transport.patches = 150;
         BakeOptions options;
-        options.solver.method = MatrixOptions{.transport = {.patches = 150}, .form = form};
+        options.solver.method = method;
         options.solver.target_error = 0.03;
         options.atlas.size = kSize;
         options.sky_directions = 64;

@@ -12,10 +12,11 @@ namespace {
 
 Transport transport_of(const Prepared& world, std::uint32_t patches)
 {
-    const SolverOptions options{.method = MatrixOptions{.transport = {.patches = patches}}};
-    const support::Resident resident(world.scene, world.rays, world.lumels, options);
+    MatrixOptions method;
+    method.transport.patches = patches;
+    const support::Resident resident(world.scene, world.rays, world.lumels, {.method = method});
     TransportBuilder builder(resident.device, resident.world, world.lumels, resident.near,
-                             {.patches = patches});
+                             method.transport);
     while (!builder.done())
         builder.step();
     Transport transport = builder.finish();
