@@ -117,11 +117,19 @@ TEST(CornellBox, TheSameSeedGivesTheSameBytes)
     EXPECT_EQ(a.irradiance, b.irradiance);
 }
 
+/// The default views of shooters, with K of them per batch.
+ViewOptions in_batches(int batch)
+{
+    ViewOptions views = StochasticOptions{}.views;
+    views.batch = batch;
+    return views;
+}
+
 TEST(CornellBox, OtherBatchesGiveTheSameAnswer)
 {
     for (const int batch : {1, 5, 64}) {
         const Solved solved = support::solve_scene(
-            cornell().world, {.method = StochasticOptions{.views = {.batch = batch}},
+            cornell().world, {.method = StochasticOptions{.views = in_batches(batch)},
                               .max_shots = 1024,
                               .target_error = 0.0});
         EXPECT_LE(cornell_error(solved).rmse, 0.05) << "K = " << batch;
@@ -136,7 +144,7 @@ TEST(CornellBox, ThePapersIterationConvergesToTheSameAnswer)
     const auto error = [&](std::uint64_t shots) {
         const Solved solved = support::solve_scene(
             small,
-            {.method = StochasticOptions{.views = {.batch = 1}, .iteration = {Scheme::paper}},
+            {.method = StochasticOptions{.views = in_batches(1), .iteration = {Scheme::paper}},
              .max_shots = shots,
              .target_error = 0.0});
         return support::lumel_error(small.lumels, solved.irradiance, truth, everywhere).rmse;
@@ -156,7 +164,7 @@ TEST(CornellBox, MergedTexelsLeaveLessNoise)
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             const Solved solved = support::solve_scene(
                 small, {.method = StochasticOptions{.seed = seed,
-                                                    .views = {.batch = 1},
+                                                    .views = in_batches(1),
                                                     .rule = SampleRule::centre,
                                                     .iteration = {Scheme::paper},
                                                     .merge = merge},
