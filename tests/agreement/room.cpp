@@ -78,10 +78,12 @@ RoomFiles::RoomFiles()
     write(Room::dimmed, "dimmed.gltf", dimmed);
 }
 
-Reference::Reference(const std::string& scene_path) : world_(scene_path, {.size = kSide})
+Reference::Reference(const std::string& scene_path, const std::vector<std::string>& movable)
+    : world_(lay_out(read_gltf(scene_path), {.size = kSide}, movable))
 {
+    const RayScene rays(world_.scene);
     for (std::uint32_t h = 0; h < 2; ++h)
-        halves_[h] = reference_irradiance(world_.scene, world_.rays, world_.lumels,
+        halves_[h] = reference_irradiance(world_.scene, rays, world_.lumels,
                                           {.samples_per_lumel = kSamples, .seed = 99 + h});
     for (std::size_t i = 0; i < world_.lumels.lumels.size(); ++i)
         if (!is_buried(world_.lumels.lumels[i]))

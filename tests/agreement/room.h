@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../support/temporary_folder.h"
-#include "atlas/prepare/prepare.h"
+#include "links/live/live_links.h"
 
 namespace lumel::test {
 
@@ -44,12 +44,16 @@ struct Deviation {
 /// A room path-traced in two independent halves.
 class Reference {
 public:
-    explicit Reference(const std::string& scene_path);
+    /// movable: names of objects that may move, so that they cut no lumel of what they stand on.
+    Reference(const std::string& scene_path, const std::vector<std::string>& movable);
+    Reference(const Reference&) = delete;
+    Reference& operator=(const Reference&) = delete;
+
     /// Throws std::runtime_error if the lumels are not those of the reference.
     Deviation of(const Found& found) const;
 
 private:
-    Prepared world_;
+    LumelScene world_;
     std::vector<glm::vec3> halves_[2];
     std::map<std::uint64_t, std::size_t> lumel_at_;  ///< by texel and side
 };
