@@ -15,7 +15,8 @@ void read_script(Input input)
     for (const ScriptCommand& command : lumel::read_script(text, "script")) {
         require(command.line > line, "lines rise");
         line = command.line;
-        require(command.numbers.size() <= command.form->numbers.most, "no more numbers than a form takes");
+        require(command.numbers.size() <= command.form->numbers.most,
+                "no more numbers than a form takes");
         require(std::all_of(command.numbers.begin(), command.numbers.end(),
                             [](double number) { return std::isfinite(number); }),
                 "numbers are finite");

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "compared.h"
 #include "program.h"
 
 namespace lumel::test {
@@ -57,13 +58,6 @@ public:
         return place.path(name + "/lightmap.exr");
     }
 
-    static double apart(const std::string& a, const std::string& b)
-    {
-        const Outcome outcome = run_lumel({"compare", a, b, "--json", "-o", a + ".png"});
-        EXPECT_EQ(outcome.code, 0) << outcome.err;
-        return Json::parse(outcome.out)["relative_rmse"].get<double>();
-    }
-
     const Workplace place;
 
 private:
@@ -88,8 +82,8 @@ TEST(Relight, WithAllFactorsOneIsTheBake)
     EXPECT_EQ(report["matrix"]["sources"], Json({"sky", "light"}));
     EXPECT_EQ(report["states"][0]["files"], Json({"as baked.exr", "as baked.png"}));
     EXPECT_TRUE(std::filesystem::exists(bake.place.path("out/states/as baked.png")));
-    EXPECT_LT(Bake::apart(bake.place.path("out/states/as baked.exr"),
-                          bake.place.path("out/lightmap.exr")),
+    EXPECT_LT(rmse_between(bake.place.path("out/states/as baked.exr"),
+                           bake.place.path("out/lightmap.exr")),
               0.003);  // of the compressed matrix, which aims at 0.2 %
 }
 
@@ -97,8 +91,8 @@ TEST(Relight, ByThePapersFormIsTheBakeWithinAFewPerCent)
 {
     const Bake bake({"--sky", "2,3,6", "--sky-directions", "256", "--form", "bc1"});
     bake.relight({{"states", {{{"name", "as baked"}}}}});
-    EXPECT_LT(Bake::apart(bake.place.path("out/states/as baked.exr"),
-                          bake.place.path("out/lightmap.exr")),
+    EXPECT_LT(rmse_between(bake.place.path("out/states/as baked.exr"),
+                           bake.place.path("out/lightmap.exr")),
               0.03);
     const Json report = Json::parse(bytes_of(bake.place.path("out/report.json")));
     EXPECT_EQ(report["solver"]["options"]["form"], "bc1");
@@ -112,7 +106,7 @@ TEST(Relight, WithALampSwitchedOffIsABakeWithoutIt)
                     {{"name", "day"}, {"lights", {{"light", 0}}}},
                     {{"name", "dusk"}, {"others", 0}, {"lights", {{"light", {0.5, 0.2, 0.1}}}}}}}});
     const std::string night = bake.fresh("night", [](Json&) {});
-    EXPECT_LT(Bake::apart(bake.place.path("out/states/night.exr"), night), kAlike);
+    EXPECT_LT(rmse_between(bake.place.path("out/states/night.exr"), night), kAlike);
     const auto lamp = [](Json& scene) -> Json& {
         for (Json& material : scene["materials"])
             if (material["name"] == "light")
@@ -125,14 +119,14 @@ TEST(Relight, WithALampSwitchedOffIsABakeWithoutIt)
             lamp(scene)["emissiveFactor"] = {0, 0, 0};
         },
         kSky);
-    EXPECT_LT(Bake::apart(bake.place.path("out/states/day.exr"), day), kAlike);
+    EXPECT_LT(rmse_between(bake.place.path("out/states/day.exr"), day), kAlike);
     const std::string dusk = bake.fresh("dusk", [&](Json& scene) {
         const double factors[] = {0.5, 0.2, 0.1};
         for (int c = 0; c < 3; ++c)
             lamp(scene)["emissiveFactor"][c] =
                 factors[c] * lamp(scene)["emissiveFactor"][c].get<double>();
     });
-    EXPECT_LT(Bake::apart(bake.place.path("out/states/dusk.exr"), dusk), kAlike);
+    EXPECT_LT(rmse_between(bake.place.path("out/states/dusk.exr"), dusk), kAlike);
 }
 
 /// Adds a lamp at a place [m].
@@ -155,8 +149,8 @@ TEST(Relight, WithALampThatMovedIsABakeWithTheLampThere)
     bake.relight(
         {{"states", {{{"name", "moved"}, {"lights", {{"bulb", {{"position", there}}}}}}}}});
     const std::string fresh = bake.fresh("there", [&](Json& scene) { add_lamp(scene, there); });
-    EXPECT_LT(Bake::apart(bake.place.path("out/states/moved.exr"), fresh), 0.01);
-    EXPECT_GT(Bake::apart(bake.place.path("out/lightmap.exr"), fresh), 0.1);
+    EXPECT_LT(rmse_between(bake.place.path("out/states/moved.exr"), fresh), 0.01);
+    EXPECT_GT(rmse_between(bake.place.path("out/lightmap.exr"), fresh), 0.1);
 }
 
 TEST(Relight, RefusesWhatItCannotLight)

@@ -19,6 +19,21 @@ std::vector<std::string> tiny_render(const std::string& picture,
     return arguments;
 }
 
+/// The arguments of a film of a turning box.
+std::vector<std::string> tiny_film(const std::string& picture, const std::string& frames,
+                                   const std::vector<std::string>& more)
+{
+    std::vector<std::string> arguments = {"render", own_scene("turning-box.gltf"),
+                                          picture,  "--size",
+                                          "32",     "--width",
+                                          "32",     "--shots",
+                                          "64",     "--frames",
+                                          frames,   "--fps",
+                                          "2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
 std::vector<std::string> small_render(const std::string& picture,
                                       const std::vector<std::string>& more)
 {
@@ -59,21 +74,8 @@ TEST(Render, MakesFramesOfAnAnimation)
     const Workplace place;
     for (const std::vector<std::string>& manner :
          {std::vector<std::string>{}, {"--fresh"}, {"--scheme", "paper"}}) {
-        std::vector<std::string> arguments = {"render",
-                                              own_scene("turning-box.gltf"),
-                                              place.path("film.png"),
-                                              "--size",
-                                              "32",
-                                              "--width",
-                                              "32",
-                                              "--shots",
-                                              "64",
-                                              "--frames",
-                                              "3",
-                                              "--fps",
-                                              "2",
-                                              "--json"};
-        arguments.insert(arguments.end(), manner.begin(), manner.end());
+        std::vector<std::string> arguments = tiny_film(place.path("film.png"), "3", manner);
+        arguments.push_back("--json");
         const Outcome outcome = run_lumel(arguments);
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         const auto report = nlohmann::json::parse(outcome.out, nullptr, false);
@@ -89,21 +91,7 @@ TEST(Render, MakesFramesOfAnAnimation)
 std::array<std::string, 2> two_frames(const Workplace& place, const std::string& name,
                                       const std::vector<std::string>& manner)
 {
-    std::vector<std::string> arguments = {"render",
-                                          own_scene("turning-box.gltf"),
-                                          place.path(name + ".png"),
-                                          "--size",
-                                          "32",
-                                          "--width",
-                                          "32",
-                                          "--shots",
-                                          "64",
-                                          "--frames",
-                                          "2",
-                                          "--fps",
-                                          "2"};
-    arguments.insert(arguments.end(), manner.begin(), manner.end());
-    const Outcome outcome = run_lumel(arguments);
+    const Outcome outcome = run_lumel(tiny_film(place.path(name + ".png"), "2", manner));
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return {bytes_of(place.path(name + "-0001.png")), bytes_of(place.path(name + "-0002.png"))};
 }

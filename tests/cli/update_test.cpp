@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "compared.h"
 #include "program.h"
 
 namespace lumel::test {
@@ -73,14 +74,7 @@ public:
             "-q"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         EXPECT_EQ(run_lumel(arguments).code, 0);
-        return apart(map(), place.path("fresh/lightmap.exr"));
-    }
-
-    static double apart(const std::string& a, const std::string& b)
-    {
-        const Outcome outcome = run_lumel({"compare", a, b, "--json", "-o", a + ".png"});
-        EXPECT_EQ(outcome.code, 0) << outcome.err;
-        return Json::parse(outcome.out)["relative_rmse"].get<double>();
+        return rmse_between(map(), place.path("fresh/lightmap.exr"));
     }
 
     const Workplace place;
@@ -149,7 +143,7 @@ TEST(Update, AMovedBlockIsLitAsIfItAlwaysStoodThere)
     EXPECT_EQ(report["update"]["moved"], 1);
     EXPECT_EQ(report["update"]["solved_anew"], false);
     EXPECT_LE(report["update"]["residual"], 0.015);
-    EXPECT_GT(Bake::apart(before, bake.map()), 0.1);  // it did make a difference
+    EXPECT_GT(rmse_between(before, bake.map()), 0.1);  // it did make a difference
     EXPECT_LE(bake.error(report), kAlike);
 }
 
@@ -160,7 +154,7 @@ TEST(Update, MovedThereAndBackIsAsBefore)
     bake.follow(move_block);
     const Json report = bake.follow([](Json&) {});
     EXPECT_EQ(report["update"]["moved"], 1);
-    EXPECT_LE(Bake::apart(bake.map(), before), kAlike);
+    EXPECT_LE(rmse_between(bake.map(), before), kAlike);
 }
 
 TEST(Update, AnEditOfTheBakesOwnSceneWillDo)
@@ -170,7 +164,7 @@ TEST(Update, AnEditOfTheBakesOwnSceneWillDo)
     const Json again =
         other.update(other.place.file("moved.glb", bytes_of(bake.place.path("out/scene.glb"))));
     EXPECT_EQ(again["update"]["moved"], 1);
-    EXPECT_LE(Bake::apart(bake.map(), other.map()), 0.001);
+    EXPECT_LE(rmse_between(bake.map(), other.map()), 0.001);
 }
 
 void make_double_sided(Json& scene)
@@ -189,9 +183,9 @@ TEST(Update, KnowsTwoSidesOfAWallAsOne)
     const Json there = bake.follow(move_block);
     EXPECT_EQ(there["update"]["moved"], 1);
     EXPECT_EQ(there["update"]["appeared"], 0);
-    EXPECT_GT(Bake::apart(before, bake.map()), 0.02);
+    EXPECT_GT(rmse_between(before, bake.map()), 0.02);
     bake.follow([](Json&) {});
-    EXPECT_LE(Bake::apart(bake.map(), before), kAlike);
+    EXPECT_LE(rmse_between(bake.map(), before), kAlike);
 }
 
 TEST(Update, WhatVanishesLeavesNoShadow)
@@ -254,7 +248,7 @@ TEST(Update, AMovedBlockTakesItsShadowInTheSunAlong)
     EXPECT_EQ(report["lights"]["sun"], Json({{"azimuth", 10}, {"elevation", 35}}));
     EXPECT_EQ(report["update"]["relit"], false);
     EXPECT_EQ(report["update"]["solved_anew"], false);
-    EXPECT_GT(Bake::apart(before, bake.map()), 0.1);
+    EXPECT_GT(rmse_between(before, bake.map()), 0.1);
     EXPECT_LE(bake.error(report, sun), kAlike);
 }
 
