@@ -198,10 +198,10 @@ TEST(LiveLinkScenes, RefuseWhatTheyCannotFollow)
     settings.residual = 0.0;
     expect_error(ErrorKind::input, {"residual"}, [&] { made_with(settings); });
     LiveLinks lit(Scene(lit_cube()), {.atlas = {.size = kSize}});
-    expect_error(ErrorKind::input, {"bulb", "number"}, [&] {
+    expect_error(ErrorKind::input, {"bulb", "finite"}, [&] {
         lit.move_lamp("bulb", {.position = Vec3{kNoNumber, 0, 0}});
     });
-    expect_error(ErrorKind::input, {"bulb", "nowhere"}, [&] {
+    expect_error(ErrorKind::input, {"bulb", "no length"}, [&] {
         lit.move_lamp("bulb", {.direction = Vec3{0, 0, 0}});
     });
     expect_error(ErrorKind::input, {"bulb"}, [&] { lit.set_lamp("bulb", {-1, 0, 0}); });
