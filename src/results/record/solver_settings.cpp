@@ -1,5 +1,7 @@
 #include "results/record/solver_settings.h"
 
+#include <string_view>
+
 #include "base/core/number.h"
 #include "results/record/fields.h"
 
@@ -7,6 +9,9 @@ namespace lumel {
 namespace {
 
 constexpr Limits kShots{0.0, 1e15};
+
+/// An option newer than the format: a report without it has the default.
+constexpr std::string_view kNewerOption = "form";
 
 template <class Options, class Visit>
 void each_limit(Options& options, const Visit& visit)
@@ -57,6 +62,8 @@ SolverOptions solver_options_of(const JsonView& settings)
     }
     const JsonView own = settings.get("options");
     for (const OptionInfo& option : method_of(id).options) {
+        if (option.name == kNewerOption && !own.find(option.name))
+            continue;
         const JsonView value = own.get(option.name);
         if (!set_option(options.method, option, text_of(value.json())))
             value.fail("must be " + option.range());
