@@ -85,25 +85,22 @@ double squared_error_of_entries(const ColorBlock& codes, const BlockWords& words
     return sum;
 }
 
-// Blocks of logarithms are made for what these stand for: nearer than blocks made for the codes, by
-// two fifths in all. The descent from the corners of the codes ends in a farther block for 4 of
-// these 200.
+// Blocks of logarithms are made for what these stand for: nearer than blocks made for the codes,
+// for every one of them, and by two fifths in all.
 TEST(Bc1OfCodes, IsFartherFromTheEntriesThanABlockMadeForThem)
 {
     std::mt19937 random(1);
     const Bc1Encoder encoder(kOffset, {1.0f, 1.0f, 1.0f});
     double ours = 0.0, of_codes = 0.0;
-    int farther = 0;
     for (int trial = 0; trial < 200; ++trial) {
         const ColorBlock block = random_codes(random);
         const double error = squared_error_of_entries(block, encoder.encode(block));
         const double other = squared_error_of_entries(block, encode_bc1(block));
-        farther += error > other * (1.0 + 1e-6);
+        EXPECT_LE(error, other * (1.0 + 1e-6));
         ours += error;
         of_codes += other;
     }
     EXPECT_LT(ours, 0.6 * of_codes);
-    EXPECT_LE(farther, 4);
 }
 
 TEST(Bc4, ABlockOfTwoValuesIsExact)
