@@ -1,6 +1,6 @@
 // Two colours of 5, 6 and 5 bits, the ends, and one or two mixtures of them; each texel is one of
-// the four. Ends begin at the corners of the codes' bounding box; then each of their channels goes
-// up and down by a step as long as the entries come nearer.
+// the four. The search for ends starts at two pairs. From each, the channels of an end go up and
+// down by a step, one or all of them, as long as the entries come nearer.
 
 #include "solve/matrix/bc1_blocks.h"
 
@@ -14,10 +14,13 @@ namespace lumel {
 namespace {
 
 constexpr int kSixths = 6;      // mixtures are thirds and halves of two codes
-constexpr int kMaxRounds = 16;  // each tries every channel of both ends
+constexpr int kMaxRounds = 16;  // each tries every step of both ends
 constexpr std::array<int, 3> kBits = {5, 6, 5};
 
 using Coded = std::array<int, 3>;
+
+/// Of one channel, and of all by about the same: a step of 5 bits is two of 6.
+constexpr std::array<Coded, 4> kSteps = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 2, 1}}};
 
 /// 0…255. The hardware repeats the upper bits below the last one.
 constexpr int expand(int code, int bits)
@@ -25,10 +28,22 @@ constexpr int expand(int code, int bits)
     return code << (8 - bits) | code >> (2 * bits - 8);
 }
 
-int quantised(float code, int bits)
+Coded quantised(const std::array<float, 3>& codes)
 {
-    const int most = (1 << bits) - 1;
-    return std::clamp(int(std::lround(code * float(most) / kLogCodes)), 0, most);
+    Coded result;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const int most = (1 << kBits[c]) - 1;
+        result[c] = std::clamp(int(std::lround(codes[c] * float(most) / kLogCodes)), 0, most);
+    }
+    return result;
+}
+
+constexpr bool fits(const Coded& code)
+{
+    bool all = true;
+    for (std::size_t c = 0; c < 3; ++c)
+        all = all && code[c] >= 0 && code[c] < 1 << kBits[c];
+    return all;
 }
 
 constexpr std::uint32_t pack(const Coded& code)
@@ -59,22 +74,28 @@ struct Bc1Encoder::Ends {
     bool black = false;  ///< three colours and 0, instead of four
     float error = 0.0f;
 
-    /// Corners of the bounding box; black: without texels that are 0.
-    static Ends around(const ColorBlock& codes, bool black)
+    /// Two pairs to start from: the corners of the bounding box, and the brightest texel with the
+    /// mean. black: without texels that are 0.
+    static std::array<Ends, 2> starts(const ColorBlock& codes, bool black)
     {
-        Ends ends{.black = black};
-        for (std::size_t c = 0; c < 3; ++c) {
-            float low = kLogCodes, high = 0.0f;
-            for (const std::array<float, 3>& code : codes) {
-                if (black && is_zero(code))
-                    continue;
-                low = std::min(low, code[c]);
-                high = std::max(high, code[c]);
+        std::array<float, 3> low{}, high{}, mean{}, brightest{};
+        low.fill(kLogCodes);
+        float count = 0.0f;
+        for (const std::array<float, 3>& code : codes) {
+            if (black && is_zero(code))
+                continue;
+            for (std::size_t c = 0; c < 3; ++c) {
+                low[c] = std::min(low[c], code[c]);
+                high[c] = std::max(high[c], code[c]);
+                mean[c] = (mean[c] * count + code[c]) / (count + 1.0f);
             }
-            ends.color[0][c] = quantised(high, kBits[c]);
-            ends.color[1][c] = quantised(std::min(low, high), kBits[c]);
+            if (code[0] + code[1] + code[2] > brightest[0] + brightest[1] + brightest[2])
+                brightest = code;
+            count += 1.0f;
         }
-        return ends;
+        low = count > 0.0f ? low : high;
+        return {Ends{{quantised(high), quantised(low)}, black},
+                Ends{{quantised(brightest), quantised(mean)}, black}};
     }
 };
 
@@ -109,8 +130,9 @@ float Bc1Encoder::entry_of(float code) const
     return code < kMinLogCode ? 0.0f : std::exp(code * step_ - offset_);
 }
 
-/// Squared; indices [kBlockTexels] of the nearest colours, unless null.
-float Bc1Encoder::error_of(const ColorBlock& entries, const Ends& ends,
+/// Squared error, or any number from `limit` on if it is not below. indices [kBlockTexels] of the
+/// nearest colours, unless null.
+float Bc1Encoder::error_of(const ColorBlock& entries, const Ends& ends, float limit,
                            std::uint32_t* indices) const
 {
     std::array<std::array<float, 3>, 4> palette{};
@@ -121,7 +143,7 @@ float Bc1Encoder::error_of(const ColorBlock& entries, const Ends& ends,
             palette[index][c] = scale_[c] * entry_[std::size_t(codes[index])];
     }
     float sum = 0.0f;
-    for (std::size_t i = 0; i < kBlockTexels; ++i) {
+    for (std::size_t i = 0; i < kBlockTexels && sum < limit; ++i) {
         float least = INFINITY;
         for (std::uint32_t index = 0; index < palette.size(); ++index) {
             float off = 0.0f;
@@ -140,18 +162,22 @@ float Bc1Encoder::error_of(const ColorBlock& entries, const Ends& ends,
 
 Bc1Encoder::Ends Bc1Encoder::refined(const ColorBlock& entries, Ends ends) const
 {
-    ends.error = error_of(entries, ends, nullptr);
+    const auto moved = [](Ends from, std::size_t end, const Coded& step, int sign) {
+        for (std::size_t c = 0; c < 3; ++c)
+            from.color[end][c] += sign * step[c];
+        return from;
+    };
+    ends.error = error_of(entries, ends, INFINITY, nullptr);
     bool nearer = true;
     for (int round = 0; nearer && round < kMaxRounds; ++round) {
         nearer = false;
         for (std::size_t end = 0; end < 2; ++end)
-            for (std::size_t c = 0; c < 3; ++c)
-                for (const int step : {-1, 1}) {
-                    Ends next = ends;
-                    next.color[end][c] += step;
-                    if (next.color[end][c] < 0 || next.color[end][c] >= 1 << kBits[c])
+            for (const Coded& step : kSteps)
+                for (const int sign : {-1, 1}) {
+                    Ends next = moved(ends, end, step, sign);
+                    if (!fits(next.color[end]))
                         continue;
-                    next.error = error_of(entries, next, nullptr);
+                    next.error = error_of(entries, next, ends.error, nullptr);
                     if (next.error < ends.error) {
                         ends = next;
                         nearer = true;
@@ -168,14 +194,17 @@ BlockWords Bc1Encoder::encode(const ColorBlock& codes) const
     for (std::size_t i = 0; i < kBlockTexels; ++i)
         for (std::size_t c = 0; c < 3; ++c)
             entries[i][c] = scale_[c] * entry_of(codes[i][c]);
-    Ends best = refined(entries, Ends::around(codes, true));
-    const Ends four = refined(entries, Ends::around(codes, false));
-    if (four.error < best.error && four.color[0] != four.color[1])
-        best = four;
+    Ends best{.error = INFINITY};
+    for (const bool black : {true, false})
+        for (const Ends& start : Ends::starts(codes, black)) {
+            const Ends ends = refined(entries, start);
+            if (ends.error < best.error && (black || ends.color[0] != ends.color[1]))
+                best = ends;
+        }
     if ((pack(best.color[0]) > pack(best.color[1])) == best.black)
         std::swap(best.color[0], best.color[1]);
     std::array<std::uint32_t, kBlockTexels> indices{};
-    error_of(entries, best, indices.data());
+    error_of(entries, best, INFINITY, indices.data());
     BlockWords words = {pack(best.color[0]) | pack(best.color[1]) << 16, 0u};
     for (std::size_t i = 0; i < kBlockTexels; ++i)
         words[1] |= indices[i] << (2 * i);

@@ -31,7 +31,8 @@ private:
     struct Ends;
 
     Ends refined(const ColorBlock& entries, Ends ends) const;
-    float error_of(const ColorBlock& entries, const Ends& ends, std::uint32_t* indices) const;
+    float error_of(const ColorBlock& entries, const Ends& ends, float limit,
+                   std::uint32_t* indices) const;
     /// v / largest of its channel
     float entry_of(float code) const;
 
