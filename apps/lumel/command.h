@@ -19,8 +19,8 @@ struct HelpFlag {};
 /// Target of an option that prints the version.
 struct VersionFlag {};
 
-/// Where a value goes: into a variable, or to a function, which is called once per value. Options
-/// whose target is a bool, a function without parameters or one of the two flags take no value.
+/// Target of an option: a variable, or a function called once per value. Options that set a bool,
+/// call a function without parameters or print (HelpFlag, VersionFlag) take no value.
 using Target =
     std::variant<HelpFlag, VersionFlag, bool*, int*, std::uint32_t*, std::uint64_t*, float*,
                  double*, std::string*, std::vector<std::string>*, std::function<void()>,

@@ -27,7 +27,7 @@ namespace {
 constexpr float kDistant = 2.0f;
 
 /// Distance, in sizes of the larger lumel, beyond which pairs use point samples: their kernel
-/// varies little, and the noise of so many pairs averages out.
+/// varies little, and noise averages out over the many pairs.
 constexpr float kPointwise = 4.0f;
 /// Point pairs per NearFieldOptions::samples, up to kOnePoint and beyond.
 constexpr int kPointPart = 8, kDistantPart = 16;

@@ -16,9 +16,9 @@ struct LogOptions {
     float exact_share = 0.04f;  ///< of each row of each channel, kept as it is; 0…1
     float offset = 12.0f;       ///< entries below e^-offset of the largest become 0
     Reordering reordering = Reordering::rows_and_columns;
-    /// True: the image holds the row's largest other entry in place of an exact one, and the exact
-    /// part the difference from what is stored. False, as the paper: the image holds 0 there, and
-    /// what the blocks make of that 0 is added to the exact entry.
+    /// True: the image stores the row's largest other entry in place of an exact one, and the exact
+    /// part stores the difference from the decoded value. False, as in the paper: the image stores
+    /// 0 there, and the value that the block decodes to is added to the exact entry.
     bool mend = true;
 };
 

@@ -7,7 +7,7 @@
 
 namespace lumel {
 
-/// What is wrong with a file whose bytes do not fit together.
+/// Message for an inconsistent file.
 inline constexpr const char* kMatrixDamage = "is damaged; bake the scene again";
 
 /// About bytes_of(matrix) of them.
