@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { makeDiffuse } from '../../../examples/threejs/lightmap.js';
+import { makeDiffuse } from '../../../../examples/threejs/lightmap.js';
 import { readLightmap } from './lightmap.js';
 
 // Unpacks base64 of gzip.

@@ -1,7 +1,7 @@
 // The scene in WebGL: lit, with white materials or in false colours; two bakes side by side.
 
 import * as THREE from 'three';
-import { useToneCurve } from '../../../examples/threejs/lightmap.js';
+import { useToneCurve } from '../../../../examples/threejs/lightmap.js';
 
 // Replacements for a fragment's surface colour × light.
 const shownInstead = {
