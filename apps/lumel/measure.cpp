@@ -11,7 +11,7 @@ namespace lumel {
 namespace {
 
 /// Points that are listed; --csv and --json have all.
-constexpr std::size_t kRows = 24;
+constexpr std::size_t kMeasuredRows = 24;
 constexpr double kPercent = 100.0;
 
 /// A value, rounded to the digits that its noise leaves significant.
@@ -41,7 +41,7 @@ std::string list_of(const MeasureSummary& summary)
         return {};
     std::string text = "place [m]                      facing             illuminance [lx]";
     text += summary.outdoors ? "        daylight\n" : "\n";
-    const std::size_t count = std::min(summary.rows.size(), kRows);
+    const std::size_t count = std::min(summary.rows.size(), kMeasuredRows);
     for (std::size_t i = 0; i < count; ++i)
         text += line_of(summary.rows[i], summary.outdoors);
     if (count < summary.rows.size())
@@ -69,7 +69,7 @@ std::string plane_of(const MeasureSummary& summary)
     return text;
 }
 
-std::string text_of(const MeasureSummary& summary)
+std::string printed(const MeasureSummary& summary)
 {
     std::string text = list_of(summary);
     if (summary.plane)
@@ -87,7 +87,7 @@ int run(const MeasureArguments& arguments)
 {
     const auto work = [&](const ProgressFunction& progress) {
         const MeasureSummary summary = measure(arguments.folder, arguments.options, progress);
-        return Conclusion{summary.report, text_of(summary), false};
+        return Conclusion{summary.report, printed(summary), false};
     };
     return do_long_work(arguments.talk, 0, work);
 }

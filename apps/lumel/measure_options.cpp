@@ -12,25 +12,19 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kPlacesGroup = "Where to measure";
-constexpr const char* kFilesGroup = "Files";
+constexpr const char* kMeasurePlacesGroup = "Where to measure";
 constexpr int kMinSamples = 64, kMaxSamples = 1 << 24;
-
-[[noreturn]] void refuse(const std::string& what)
-{
-    throw Error(ErrorKind::input, "", what);
-}
 
 MeasurePoint point_of(const std::string& text)
 {
     const std::vector<double> n = coordinates_of(text);
     if (n.size() != 3 && n.size() != 6)
-        refuse(fmt::format("--at: '{}' is not of the form X,Y,Z or X,Y,Z,NX,NY,NZ", text));
+        refuse_value(fmt::format("--at: '{}' is not of the form X,Y,Z or X,Y,Z,NX,NY,NZ", text));
     MeasurePoint point{.place = {n[0], n[1], n[2]}};
     if (n.size() == 6)
         point.normal = {n[3], n[4], n[5]};
     if (!(glm::length(point.normal) > 0.0))
-        refuse(fmt::format("--at: the normal of '{}' has no length", text));
+        refuse_value(fmt::format("--at: the normal of '{}' has no length", text));
     return point;
 }
 
@@ -38,15 +32,15 @@ std::array<double, 4> bounds_of(const std::string& text)
 {
     const std::vector<double> n = coordinates_of(text);
     if (n.size() != 4 || !(n[0] < n[2]) || !(n[1] < n[3]))
-        refuse(fmt::format("--bounds: '{}' is not of the form X0,Z0,X1,Z1 with X0 < X1 and Z0 < Z1",
-                           text));
+        refuse_value(fmt::format(
+            "--bounds: '{}' is not of the form X0,Z0,X1,Z1 with X0 < X1 and Z0 < Z1", text));
     return {n[0], n[1], n[2], n[3]};
 }
 
 void add_places(Command& command, MeasureOptions& options)
 {
     command.add(
-        kPlacesGroup,
+        kMeasurePlacesGroup,
         {{.names = "--at",
           .type = "X,Y,Z[,NX,NY,NZ]",
           .help = "Point in metres, in the air or on a surface, and the normal of the receiver, by "
@@ -115,7 +109,7 @@ Command measure_command()
     command.arguments = [given](const Command&) -> Arguments {
         const MeasureOptions& wanted = given->options;
         if (wanted.points.empty() && !wanted.height && wanted.preview.empty())
-            refuse("lumel measure needs --at X,Y,Z, --plane Y or --preview FILE.png");
+            refuse_value("lumel measure needs --at X,Y,Z, --plane Y or --preview FILE.png");
         return {*given};
     };
     return command;

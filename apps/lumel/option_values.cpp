@@ -1,4 +1,5 @@
 #include "option_values.h"
+#include "base/core/error.h"
 
 #include <charconv>
 #include <cmath>
@@ -39,6 +40,11 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
     for (const std::string& word : words)
         text += (text.empty() ? "" : separator) + word;
     return text;
+}
+
+void refuse_value(const std::string& what)
+{
+    throw Error(ErrorKind::input, "", what);
 }
 
 std::vector<double> coordinates_of(const std::string& text)

@@ -28,6 +28,9 @@ Check between(double low, double high);
 /// Coordinates that floats still resolve to a decimetre [m].
 inline constexpr double kFarthest = 1e6;
 
+/// Throws Error{input}.
+[[noreturn]] void refuse_value(const std::string& what);
+
 /// The numbers of "X,Y,Z"; empty if one is none, or is beyond kFarthest.
 std::vector<double> coordinates_of(const std::string& text);
 

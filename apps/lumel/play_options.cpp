@@ -18,10 +18,7 @@ const std::vector<OmittedOption> kOmitted = {{"scheme"}, {"sampling", "links"}, 
 
 constexpr const char* kAnimationGroup = "Animation";
 
-constexpr int kMaxFrames = 100'000;
-constexpr int kMaxAnimations = 1'000'000;
 constexpr double kMinLeak = 1e-4, kMaxLeak = 0.5;
-constexpr double kMaxFps = 1000.0;  // pictures a second
 
 const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution::incremental},
                                                   {"cross", Redistribution::cross}};

@@ -8,7 +8,7 @@
 namespace lumel {
 namespace {
 
-std::string text_of(const ProbesSummary& summary)
+std::string printed(const ProbesSummary& summary)
 {
     std::string text = fmt::format("{}: {} {}", summary.file, summary.rows.size(),
                                    summary.rows.size() == 1 ? "probe" : "probes");
@@ -26,7 +26,7 @@ int run(const ProbesArguments& arguments)
 {
     const auto work = [&](const ProgressFunction& progress) {
         const ProbesSummary summary = probes(arguments.folder, arguments.options, progress);
-        return Conclusion{summary.report, text_of(summary), false};
+        return Conclusion{summary.report, printed(summary), false};
     };
     return do_long_work(arguments.talk, 0, work);
 }

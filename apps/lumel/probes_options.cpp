@@ -12,20 +12,14 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kPlacesGroup = "Where to put light probes";
-constexpr const char* kFilesGroup = "Files";
-constexpr int kMinSamples = 64, kMaxSamples = 1 << 20;
-
-[[noreturn]] void refuse(const std::string& what)
-{
-    throw Error(ErrorKind::input, "", what);
-}
+constexpr const char* kProbePlacesGroup = "Where to put light probes";
+constexpr int kMinProbeSamples = 64, kMaxProbeSamples = 1 << 20;
 
 glm::dvec3 place_of(const std::string& text)
 {
     const std::vector<double> n = coordinates_of(text);
     if (n.size() != 3)
-        refuse(fmt::format("--at: '{}' is not of the form X,Y,Z", text));
+        refuse_value(fmt::format("--at: '{}' is not of the form X,Y,Z", text));
     return {n[0], n[1], n[2]};
 }
 
@@ -33,16 +27,17 @@ std::array<double, 6> bounds_of(const std::string& text)
 {
     const std::vector<double> n = coordinates_of(text);
     if (n.size() != 6 || !(n[0] < n[3]) || !(n[1] < n[4]) || !(n[2] < n[5]))
-        refuse(fmt::format("--bounds: '{}' is not of the form X0,Y0,Z0,X1,Y1,Z1 with X0 < X1, Y0 < "
-                           "Y1 and Z0 < Z1",
-                           text));
+        refuse_value(
+            fmt::format("--bounds: '{}' is not of the form X0,Y0,Z0,X1,Y1,Z1 with X0 < X1, Y0 < "
+                        "Y1 and Z0 < Z1",
+                        text));
     return {n[0], n[1], n[2], n[3], n[4], n[5]};
 }
 
 void add_places(Command& command, ProbesOptions& options)
 {
     command.add(
-        kPlacesGroup,
+        kProbePlacesGroup,
         {{"--spacing", "F", "Grid of probes over the scene, this many metres apart",
           &options.spacing, "", positive()},
          {.names = "--bounds",
@@ -61,7 +56,7 @@ void add_places(Command& command, ProbesOptions& options)
          {"--samples", "N",
           "Minimum rays per probe over the sphere, and as many towards lights; up to 64 times as "
           "many if their noise is above 0.5 %",
-          &options.samples, text_of(options.samples), whole(kMinSamples, kMaxSamples)}});
+          &options.samples, text_of(options.samples), whole(kMinProbeSamples, kMaxProbeSamples)}});
 }
 
 }  // namespace

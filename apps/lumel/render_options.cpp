@@ -12,9 +12,6 @@ namespace {
 
 constexpr int kMaxPlaces = 256;
 constexpr int kMaxRays = 4096;
-constexpr int kMaxFrames = 100'000;
-constexpr int kMaxAnimations = 1'000'000;
-constexpr double kMaxFps = 1000.0;   // pictures a second
 constexpr double kMaxKept = 1000.0;  // frames
 
 void add_film_options(Command& command, FilmOptions& film)

@@ -13,9 +13,12 @@ inline constexpr const char* kLightGroup = "Light";
 inline constexpr const char* kLightmapGroup = "Lightmap";
 inline constexpr const char* kStopGroup = "When to stop";
 inline constexpr const char* kPictureGroup = "Pictures";
+inline constexpr const char* kFilesGroup = "Files";
 inline constexpr const char* kProgramGroup = "Device and messages";
 
 inline constexpr int kLargestAtlas = 16384;  ///< side that common devices offer [texels]
+inline constexpr int kMaxFrames = 100'000, kMaxAnimations = 1'000'000;
+inline constexpr double kMaxFps = 1000.0;  ///< pictures a second
 inline constexpr int kMaxShots = 2'000'000'000;
 inline constexpr int kMaxPaths = 100'000'000;
 

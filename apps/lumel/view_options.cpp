@@ -15,7 +15,6 @@ namespace lumel {
 namespace {
 
 constexpr const char* kSessionGroup = "Session";
-constexpr int kMaxAnimations = 1'000'000;
 constexpr int kMaxSeed = 2'147'483'647;
 
 /// The commands of a script, for --help: name and meaning with a tab between.

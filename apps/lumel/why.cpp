@@ -11,7 +11,7 @@ namespace lumel {
 namespace {
 
 /// Senders and names that are listed; --json has all.
-constexpr std::size_t kRows = 12, kNames = 6;
+constexpr std::size_t kWhyRows = 12, kNames = 6;
 
 std::string place_of(const WhyRow& row)
 {
@@ -45,7 +45,7 @@ std::string table_of(const WhySummary& summary)
     std::string table = head_of(summary);
     if (summary.rows.empty())
         return table + "no light arrives there";
-    const std::size_t count = std::min(summary.rows.size(), kRows);
+    const std::size_t count = std::min(summary.rows.size(), kWhyRows);
     const auto name = [](const WhyRow& row) { return row.name; };
     const auto material = [](const WhyRow& row) { return row.material; };
     const std::size_t names = width_of(summary, count, 4, name);

@@ -18,7 +18,7 @@
 namespace lumel::v0 {
 namespace {
 
-[[noreturn]] void refuse(const std::string& setting, const std::string& what)
+[[noreturn]] void refuse_setting(const std::string& setting, const std::string& what)
 {
     throw lumel::Error(lumel::ErrorKind::input, "BakeSettings::" + setting, what);
 }
@@ -39,7 +39,7 @@ MethodOptions method_of(const BakeSettings& settings)
 {
     std::map<std::string, std::string> given = settings.options;
     if (!given.emplace("seed", std::to_string(settings.seed)).second)
-        refuse("options", "the seed is a setting of its own");
+        refuse_setting("options", "the seed is a setting of its own");
     return method_options(settings.method, given);
 }
 
@@ -53,18 +53,19 @@ BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
     options.solver.max_seconds = settings.seconds;
     options.solver.max_shots = settings.shots;
     if (!std::isfinite(settings.error) || settings.error < 0.0)
-        refuse("error", "must be a number of 0 or more");
+        refuse_setting("error", "must be a number of 0 or more");
     if (!std::isfinite(settings.seconds) || settings.seconds < 0.0)
-        refuse("seconds", "must be a number of 0 or more");
+        refuse_setting("seconds", "must be a number of 0 or more");
     if (settings.error == 0.0 && settings.seconds == 0.0 && settings.shots == 0 && !has_progress)
-        refuse("error", "nothing would end the bake: set an error, seconds or shots");
+        refuse_setting("error", "nothing would end the bake: set an error, seconds or shots");
     return options;
 }
 
 void check_materials(const MethodInfo& method, const lumel::Scene& scene)
 {
     if (method.materials == MaterialModel::glossy && scene.model != MaterialModel::glossy)
-        refuse("method", std::string(method.id) + " needs a scene loaded with Materials::glossy");
+        refuse_setting("method",
+                       std::string(method.id) + " needs a scene loaded with Materials::glossy");
 }
 
 lumel::ProgressFunction follower(const ProgressFunction& progress)

@@ -11,13 +11,13 @@
 #include "atlas/near/near_field.h"
 #include "base/core/frame.h"
 #include "base/core/luminance.h"
+#include "base/core/pi.h"
 #include "base/core/sphere.h"
 #include "rays/paths/samples.h"
 
 namespace lumel {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 /// Uniform emitters of at most this many triangles use exact polygon form factors.

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/core/luminance.h"
+#include "base/core/pi.h"
 #include "rays/paths/directions.h"
 
 namespace lumel {
 
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 /// Unit direction with density cosθ / π about `normal`.
 glm::vec3 cosine_direction(const glm::vec3& normal, const glm::vec2& at)
@@ -28,11 +27,6 @@ glm::vec3 lobe_direction(const glm::vec3& mirror, float shininess, const glm::ve
     return turn_to(mirror, sine * std::cos(angle), sine * std::sin(angle), cosine);
 }
 
-float sum(const glm::vec3& color)
-{
-    return color.x + color.y + color.z;
-}
-
 }  // namespace
 
 Brdf::Brdf(const Reflectance& look, const glm::vec3& normal, const glm::vec3& toward)
@@ -48,8 +42,8 @@ Brdf::Brdf(const Reflectance& look, const glm::vec3& normal, const glm::vec3& to
         if (look.specular[c] > 0.0f)
             gloss_[c] = look.specular[c] / reflectance_[c];
     // No lobe if the interpolated normal faces away from the outgoing direction.
-    if (cos_toward_ > 0.0f && sum(look.specular) > 0.0f)
-        chance_ = sum(look.specular) / sum(reflectance_);
+    if (cos_toward_ > 0.0f && sum_of(look.specular) > 0.0f)
+        chance_ = sum_of(look.specular) / sum_of(reflectance_);
 }
 
 Brdf::Response Brdf::respond(const glm::vec3& incoming) const

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/core/luminance.h"
 #include "rays/paths/directions.h"
 
 namespace lumel {
@@ -30,11 +31,6 @@ float power_heuristic(float mine, float other)
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-float sum(const glm::vec3& color)
-{
-    return color.x + color.y + color.z;
-}
-
 /// True if sampling the bright parts of the sky pays.
 bool is_uneven(const Sky& sky)
 {
@@ -42,8 +38,8 @@ bool is_uneven(const Sky& sky)
     for (int row = 0; row < sky.height; ++row) {
         const double texel = sky_texel_angle(sky, row);
         for (int column = 0; column < sky.width; ++column) {
-            const double radiance =
-                sum(sky.radiance[std::size_t(row) * std::size_t(sky.width) + std::size_t(column)]);
+            const double radiance = sum_of(
+                sky.radiance[std::size_t(row) * std::size_t(sky.width) + std::size_t(column)]);
             angle += texel;
             mean += texel * radiance;
             squares += texel * radiance * radiance;
@@ -124,7 +120,7 @@ glm::vec3 Lights::from_lamps(const PathVertex& vertex, const BounceSamples& samp
             continue;
         const glm::vec3 light =
             lamp.illuminance * (vertex.brdf.respond(lamp.direction).shape * cosine);
-        total += sum(light);
+        total += sum_of(light);
         offers.push_back({lamp, light, total});
     }
     const auto arrives = [&](const LampSample& lamp) {
@@ -141,7 +137,7 @@ glm::vec3 Lights::from_lamps(const PathVertex& vertex, const BounceSamples& samp
     float mark = samples.point(Draw::lamp_choice).x * step;
     for (const Offer& offer : offers)
         for (; mark < offer.running; mark += step)
-            arriving += arrives(offer.lamp) * offer.light * (step / sum(offer.light));
+            arriving += arrives(offer.lamp) * offer.light * (step / sum_of(offer.light));
     return arriving;
 }
 

@@ -20,13 +20,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
+
+#include "base/core/pi.h"
 
 namespace lumel {
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 /// Throughput below which a path takes part in Russian roulette. On the Cornell box, 1 costs twice
 /// as much time for the same error, 0.1 a fifth more.
 constexpr float kRouletteBelow = 0.25f;

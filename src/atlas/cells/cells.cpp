@@ -10,9 +10,9 @@ namespace {
 
 /// Height of rays between cells above the surface, in sides of the lumel. Smaller heights keep gaps
 /// under furniture open, larger ones pass over ledges and low steps.
-constexpr float kLift = 0.05f;
+constexpr float kAboveCell = 0.05f;
 /// Lumels per task.
-constexpr std::size_t kGrain = 256;
+constexpr std::size_t kCellsPerTask = 256;
 
 /// A disjoint-set forest of the cells.
 class Joined {
@@ -83,7 +83,7 @@ std::uint32_t number_parts(const CellPoints& points, const Joined& joined, std::
 
 Cells::Cells(const WorldLumels& world) : grids_(world.size())
 {
-    parallel_for(world.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(world.size(), kCellsPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const std::span<const Piece> pieces = world.pieces(world[i]);
             const glm::vec3 x = glm::normalize(pieces[0].edge_u);
@@ -124,17 +124,17 @@ CellPoints cell_points(const WorldLumels& world, const Cells& cells, std::size_t
 }
 
 SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScene& rays,
-                     const std::vector<char>& buried, std::uint32_t seed)
+                     const Lumels& lumels, std::uint32_t seed)
     : first_(world.size() + 1, 0),
       code_(world.size(), 0)
 {
-    parallel_for(world.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(world.size(), kCellsPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             first_[i + 1] = 1;
-            if (buried[i])
+            if (lumels.lumels[i].flags & kLumelBuried)
                 continue;
             const CellPoints points = cell_points(world, cells, i);
-            const float ray_offset = std::max(kLift * world[i].size, rays.ray_offset());
+            const float ray_offset = std::max(kAboveCell * world[i].size, rays.ray_offset());
             const std::uint32_t own = PathSamples::hash(seed, std::uint32_t(i));
             Joined joined;
             join_along(points, 1, 0, ray_offset, rays, own, joined);

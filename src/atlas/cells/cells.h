@@ -65,7 +65,7 @@ public:
     /// Joins cells whose points see each other by rays just above the lumel. Buried lumels stay
     /// whole.
     SubLumels(const WorldLumels& world, const Cells& cells, const RayScene& rays,
-              const std::vector<char>& buried, std::uint32_t seed);
+              const Lumels& lumels, std::uint32_t seed);
 
     /// Memory for these numbers of lumels and sub-lumels [bytes].
     static std::uint64_t bytes(std::size_t lumels, std::size_t parts)

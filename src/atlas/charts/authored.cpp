@@ -16,7 +16,7 @@ namespace {
 // Exporters round: 16-bit coordinates are 1.5e-5 apart.
 constexpr double kRangeTolerance = 1e-4;
 // Adjacent parts overlap by rounding; this share of a layout is invisible.
-constexpr double kOverlapTolerance = 1e-3;
+constexpr double kAuthoredOverlap = 1e-3;
 // Surfaces without area in the layout would get no light.
 constexpr double kCollapseTolerance = 1e-3;
 // A triangle with less than this share of its expected area has collapsed.
@@ -86,7 +86,7 @@ std::string AuthoredReport::complaint() const
         return fmt::format("leaves 0…1 by {:.3g}", outside);
     if (collapsed > kCollapseTolerance)
         return fmt::format("has no area for {:.3g} per cent of the surface", 100.0 * collapsed);
-    if (overlap > kOverlapTolerance)
+    if (overlap > kAuthoredOverlap)
         return fmt::format("overlaps itself on {}{:.3g} per cent of its area",
                            overlap_is_least ? "at least " : "", 100.0 * overlap);
     return {};
@@ -121,7 +121,7 @@ AuthoredReport check_authored(const Mesh& mesh)
         return report;
 
     // A larger area than the unit square must overlap, and is slow to measure exactly.
-    report.overlap_is_least = report.area > 1.0 + kOverlapTolerance;
+    report.overlap_is_least = report.area > 1.0 + kAuthoredOverlap;
     if (report.overlap_is_least) {
         report.overlap = 1.0 - 1.0 / report.area;
     } else {
@@ -141,13 +141,13 @@ bool is_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& report
         area += reports[instance.mesh].area;
         triangles += triangle_count(scene.meshes[instance.mesh]);
     }
-    if (scene.instances.empty() || area > 1.0 + kOverlapTolerance)
+    if (scene.instances.empty() || area > 1.0 + kAuthoredOverlap)
         return false;
     TriangleGrid grid(glm::dvec2(0.0), glm::dvec2(1.0), triangles);
     double overlap = 0.0;
     for (const Instance& instance : scene.instances)
         overlap += overlap_with(grid, scene.meshes[instance.mesh]);
-    return overlap <= kOverlapTolerance * area;
+    return overlap <= kAuthoredOverlap * area;
 }
 
 Layout authored_layout(const Primitive& primitive)

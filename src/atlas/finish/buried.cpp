@@ -12,7 +12,7 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kNoChart = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kOutsideCharts = std::numeric_limits<std::uint32_t>::max();
 
 bool is_black(const Image& map, std::size_t texel)
 {
@@ -25,7 +25,7 @@ bool is_black(const Image& map, std::size_t texel)
 void fill_buried(Image& map, const Lumels& lumels, std::span<Image> layers)
 {
     const std::size_t count = std::size_t(map.width) * std::size_t(map.height);
-    std::vector<std::uint32_t> charts(count, kNoChart);
+    std::vector<std::uint32_t> charts(count, kOutsideCharts);
     std::vector<std::uint8_t> open(count), buried(count);
     for (const Lumel& lumel : lumels.lumels) {
         const std::uint32_t texel = map_texel(lumels, lumel);

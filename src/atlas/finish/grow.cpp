@@ -7,7 +7,7 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kGrain = 1024;  // texels of a ring per task
+constexpr std::size_t kTexelsPerTask = 1024;  // texels of a ring per task
 
 class Rings {
 public:
@@ -26,7 +26,7 @@ public:
                 queue_neighbours(texel);
         while (!ring_.empty()) {
             // A ring reads only texels of previous rings, so the order within it does not matter.
-            parallel_for(ring_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+            parallel_for(ring_.size(), kTexelsPerTask, [&](std::size_t first, std::size_t last) {
                 for (std::size_t i = first; i < last; ++i)
                     fill(ring_[i]);
             });

@@ -30,7 +30,7 @@ struct SideMean {
     double mean() const { return area > 0.0 ? power / area : 0.0; }
 };
 
-struct ChartSides {
+struct ChartSideLight {
     SideMean front, back;
 
     bool shows_back(bool prefers_front) const
@@ -39,15 +39,15 @@ struct ChartSides {
     }
 };
 
-std::vector<ChartSides> chart_sides(const Lumels& lumels, std::span<const glm::vec3> values)
+std::vector<ChartSideLight> chart_sides(const Lumels& lumels, std::span<const glm::vec3> values)
 {
     std::uint32_t last_chart = 0;
     for (const Lumel& lumel : lumels.lumels)
         last_chart = std::max(last_chart, lumel.chart);
-    std::vector<ChartSides> sides(std::size_t(last_chart) + 1);
+    std::vector<ChartSideLight> sides(std::size_t(last_chart) + 1);
     for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
         const Lumel& lumel = lumels.lumels[i];
-        ChartSides& chart = sides[lumel.chart];
+        ChartSideLight& chart = sides[lumel.chart];
         (is_back(lumel) ? chart.back : chart.front).add(lumel, values[i]);
     }
     return sides;
@@ -57,7 +57,7 @@ std::vector<ChartSides> chart_sides(const Lumels& lumels, std::span<const glm::v
 
 std::vector<std::uint32_t> shown_lumels(const Lumels& lumels, std::span<const glm::vec3> light)
 {
-    const std::vector<ChartSides> sides = chart_sides(lumels, light);
+    const std::vector<ChartSideLight> sides = chart_sides(lumels, light);
     std::vector<std::uint32_t> shown(lumels.coverage.size(), kNoLumel);
     for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
         const Lumel& lumel = lumels.lumels[i];

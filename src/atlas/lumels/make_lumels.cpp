@@ -19,7 +19,7 @@ namespace {
 constexpr double kThinPart = 1e-6;  // [texels²]
 constexpr double kThinShare = 1e-3;
 // Texels per task.
-constexpr std::size_t kGrain = 1024;
+constexpr std::size_t kMadePerTask = 1024;
 // Texels converted before they are collected: bounds temporary memory.
 constexpr std::size_t kTexelsAtATime = 1 << 17;
 // Parts of different charts in one texel are one surface if their normals are within 45 degrees.
@@ -338,7 +338,7 @@ Lumels make_lumels(const Scene& scene, const Atlas& atlas, const ProgressCallbac
     for (std::size_t first = 0; first < texels.size(); first += kTexelsAtATime) {
         notify(progress, double(first) / double(texels.size()));
         lifted.assign(std::min(kTexelsAtATime, texels.size() - first), {});
-        parallel_for(lifted.size(), kGrain, [&](std::size_t from, std::size_t to) {
+        parallel_for(lifted.size(), kMadePerTask, [&](std::size_t from, std::size_t to) {
             for (std::size_t i = from; i < to; ++i)
                 lifted[i] = lift_texel(scene, atlas, touches, texels[first + i]);
         });

@@ -12,12 +12,12 @@ namespace lumel {
 namespace {
 
 /// Lumels per progress step, and minimum per task.
-constexpr std::size_t kLumelsPerStep = 8192, kGrain = 64;
+constexpr std::size_t kTestedPerStep = 8192, kTestedPerTask = 64;
 constexpr std::uint32_t kFirstPoints = 8;  ///< over the whole lumel, to test whether it is open
 constexpr std::size_t kCornerPieces = 4;   ///< pieces whose corners are tested first
-constexpr float kInset = 0.02f;  ///< inset of points from edges, relative to the piece or strip
-constexpr int kStrips = 6;       ///< strips of a partly buried lumel
-constexpr int kBisections = 4;   ///< for a strip's open end, to 1/32 of a sample distance
+constexpr float kFromEdges = 0.02f;  ///< inset of points from edges, relative to the piece or strip
+constexpr int kStrips = 6;           ///< strips of a partly buried lumel
+constexpr int kStripBisections = 4;  ///< for a strip's open end, to 1/32 of a sample distance
 constexpr std::uint32_t kDirections = 16;  ///< rays per point
 /// Minimum cosine of rays to the surface: openings below it are cracks.
 constexpr float kMinCosine = 0.17f;
@@ -26,8 +26,6 @@ constexpr float kMinCosine = 0.17f;
 constexpr float kMinOpen = 0.1f;
 /// A surface closer than this above a lumel, relative to its size, lies on it.
 constexpr float kContact = 0.01f;
-/// Seed for blended surfaces; any value serves.
-constexpr std::uint32_t kBlendSeed = 0;
 
 bool is_shut_in(const Scene& scene, const RayScene& rays, const WorldLumel& lumel,
                 const LumelPoint& point, const glm::vec3& direction)
@@ -41,18 +39,10 @@ bool is_shut_in(const Scene& scene, const RayScene& rays, const WorldLumel& lume
     return hit.distance * glm::dot(direction, point.normal) < kContact * lumel.size;
 }
 
-/// Common inputs.
-struct Inputs {
-    const Scene& scene;
-    const RayScene& rays;
-    const WorldLumels& world;
-    const Lumels& lumels;
-};
-
 /// Tests whether points of a lumel are hidden. Tries the last successful direction first.
 class HiddenPoints {
 public:
-    HiddenPoints(const Inputs& look, std::size_t i) : look_(look), lumel_(i) {}
+    HiddenPoints(const LumelsInScene& look, std::size_t i) : look_(look), lumel_(i) {}
 
     /// True if all rays from a point are blocked.
     bool operator()(const LumelPoint& point)
@@ -77,7 +67,7 @@ public:
     }
 
 private:
-    const Inputs& look_;
+    const LumelsInScene& look_;
     std::size_t lumel_;
     std::uint32_t last_ = 0;
 };
@@ -86,7 +76,7 @@ enum class Openness { open, partly, hidden };
 
 /// Tests a few points: near the corners of its pieces, where neighbours begin to cover it, and over
 /// the whole lumel.
-Openness first_look(const Inputs& look, std::size_t i)
+Openness first_look(const LumelsInScene& look, std::size_t i)
 {
     HiddenPoints is_hidden(look, i);
     bool any_open = false, any_hidden = false;
@@ -99,9 +89,10 @@ Openness first_look(const Inputs& look, std::size_t i)
             return Openness::partly;
     const std::span<const Piece> pieces = look.world.pieces(look.world[i]);
     for (const Piece& piece : pieces.first(std::min(pieces.size(), kCornerPieces)))
-        for (const glm::vec2& uv : {glm::vec2(kInset), glm::vec2(1.0f - 2.0f * kInset, kInset),
-                                    glm::vec2(kInset, 1.0f - 2.0f * kInset),
-                                    glm::vec2(piece.parallelogram ? 1.0f - kInset : 0.5f - kInset)})
+        for (const glm::vec2& uv :
+             {glm::vec2(kFromEdges), glm::vec2(1.0f - 2.0f * kFromEdges, kFromEdges),
+              glm::vec2(kFromEdges, 1.0f - 2.0f * kFromEdges),
+              glm::vec2(piece.parallelogram ? 1.0f - kFromEdges : 0.5f - kFromEdges)})
             if (add(is_hidden(piece, uv)))
                 return Openness::partly;
     return any_open ? Openness::open : Openness::hidden;
@@ -110,7 +101,7 @@ Openness first_look(const Inputs& look, std::size_t i)
 /// Reduces a piece to its open part, in strips. `swapped`: strips are along v instead of u.
 class Strips {
 public:
-    Strips(const Inputs& look, std::size_t i, std::uint32_t index, int count)
+    Strips(const LumelsInScene& look, std::size_t i, std::uint32_t index, int count)
         : is_hidden_(look, i),
           piece_(look.lumels.pieces[look.lumels.lumels[i].first_piece + index]),
           in_world_(look.world.pieces(look.world[i])[index]),
@@ -178,7 +169,7 @@ private:
     /// Boundary between an open and a hidden point of a strip, by bisection.
     float edge_between(float open, float hidden, float across)
     {
-        for (int step = 0; step < kBisections; ++step) {
+        for (int step = 0; step < kStripBisections; ++step) {
             const float middle = 0.5f * (open + hidden);
             (is_open(middle, across, swapped_) ? open : hidden) = middle;
         }
@@ -190,11 +181,11 @@ private:
     {
         const float length = length_at(across), step = length / float(count_);
         std::vector<std::pair<float, float>> runs;
-        float before = kInset * step;
+        float before = kFromEdges * step;
         bool was_open = is_open(before, across, swapped_);
         float begin = 0.0f;
         for (int k = 0; k <= count_; ++k) {
-            const float place = k < count_ ? (float(k) + 0.5f) * step : length - kInset * step;
+            const float place = k < count_ ? (float(k) + 0.5f) * step : length - kFromEdges * step;
             const bool open = k < count_ ? open_[at(strip, k)] : is_open(place, across, swapped_);
             if (open && !was_open)
                 begin = edge_between(place, before, across);
@@ -251,7 +242,7 @@ struct OpenPart {
     float share;
 };
 
-OpenPart find_open_part(const Inputs& look, std::size_t i)
+OpenPart find_open_part(const LumelsInScene& look, std::size_t i)
 {
     const Lumel& lumel = look.lumels.lumels[i];
     OpenPart part{i, {}, 0.0f};
@@ -292,7 +283,7 @@ std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels&
     std::vector<OpenPart> parts(lumels.lumels.size());
     {
         const WorldLumels world(scene, rays, lumels);
-        const Inputs look{scene, rays, world, lumels};
+        const LumelsInScene look{scene, rays, world, lumels};
         const auto look_at = [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 parts[i] = {i, {}, 1.0f};
@@ -305,10 +296,11 @@ std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels&
                     parts[i].share = 0.0f;
             }
         };
-        parallel_steps(world.size(), kLumelsPerStep, kGrain, look_at, [&](std::size_t done) {
-            notify(progress, double(done) / double(world.size()));
-            return true;
-        });
+        parallel_steps(world.size(), kTestedPerStep, kTestedPerTask, look_at,
+                       [&](std::size_t done) {
+                           notify(progress, double(done) / double(world.size()));
+                           return true;
+                       });
     }
     std::vector<float> shares;
     for (const OpenPart& part : parts)

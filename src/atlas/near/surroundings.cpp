@@ -18,17 +18,7 @@ constexpr std::size_t kLumelsPerTask = 256;
 /// Neighbours are joined if a segment between them is free at one of these heights, in sizes of the
 /// larger lumel: a low segment could hit the surface itself if it is bent.
 constexpr float kHeights[] = {0.05f, 0.5f};
-/// Seed for blended surfaces; any value serves.
-constexpr std::uint32_t kBlendSeed = 0;
-
-struct Inputs {
-    const Scene& scene;
-    const RayScene& rays;
-    const WorldLumels& world;
-    const Lumels& lumels;
-};
-
-bool meets_front(const Inputs& look, std::uint32_t i, std::uint32_t ray)
+bool meets_front(const LumelsInScene& look, std::uint32_t i, std::uint32_t ray)
 {
     const LumelPoint x = look.world.point_on(i, sobol_pair(ray, hash_two(i, 0)));
     const glm::vec3 direction = direction_about(x.normal, sobol_pair(ray, hash_two(i, 1)));
@@ -39,7 +29,7 @@ bool meets_front(const Inputs& look, std::uint32_t i, std::uint32_t ray)
     return (hit.front || is_double_sided(look.scene, hit)) && hit.tint == glm::vec3(1.0f);
 }
 
-bool is_open(const Inputs& look, std::uint32_t i)
+bool is_open(const LumelsInScene& look, std::uint32_t i)
 {
     const std::size_t rays = std::clamp(kAllRays / look.lumels.lumels.size(), kMinRays, kMaxRays);
     for (std::uint32_t ray = 0; ray < rays; ++ray)
@@ -48,7 +38,7 @@ bool is_open(const Inputs& look, std::uint32_t i)
     return false;
 }
 
-bool are_joined(const Inputs& look, std::uint32_t i, std::uint32_t j)
+bool are_joined(const LumelsInScene& look, std::uint32_t i, std::uint32_t j)
 {
     const Lumel &a = look.lumels.lumels[i], &b = look.lumels.lumels[j];
     const std::uint32_t hidden = (a.flags | b.flags) & kLumelBuried;
@@ -69,7 +59,7 @@ bool are_joined(const Inputs& look, std::uint32_t i, std::uint32_t j)
 Surroundings find_surroundings(const Scene& scene, const RayScene& rays, const Lumels& lumels)
 {
     const WorldLumels world(scene, rays, lumels);
-    const Inputs look{scene, rays, world, lumels};
+    const LumelsInScene look{scene, rays, world, lumels};
     const std::vector<std::uint32_t> at = lumels_by_side(lumels);
     const auto joined = [&](std::uint32_t i, std::size_t texel, std::size_t side) {
         const std::uint32_t j = texel < at.size() / 2 ? at[2 * texel + side] : kNoLumel;

@@ -18,6 +18,9 @@ namespace lumel {
 /// Maximum points along a side of a lumel.
 inline constexpr int kMaxSide = 16;
 
+/// Seed of rays through blended surfaces; any value serves.
+inline constexpr std::uint32_t kBlendSeed = 0;
+
 /// A piece of a lumel in world space; corners counter-clockwise at its front.
 struct Facet {
     glm::vec3 corner[4];
@@ -91,6 +94,14 @@ private:
     std::vector<WorldLumel> lumels_;
     std::vector<Piece> pieces_;
     std::vector<Facet> facets_;  ///< one per piece, same index
+};
+
+/// Lumels and what surrounds them; all must outlive this.
+struct LumelsInScene {
+    const Scene& scene;
+    const RayScene& rays;
+    const WorldLumels& world;
+    const Lumels& lumels;
 };
 
 }  // namespace lumel

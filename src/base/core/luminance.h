@@ -11,4 +11,9 @@ inline double luminance(const glm::vec3& color)
     return 0.2126 * double(color.r) + 0.7152 * double(color.g) + 0.0722 * double(color.b);
 }
 
+inline float sum_of(const glm::vec3& color)
+{
+    return color.r + color.g + color.b;
+}
+
 }  // namespace lumel

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <glm/glm.hpp>
+
 #include "base/json/json_view.h"
 
 namespace lumel {
@@ -16,6 +18,12 @@ void write_json(const std::string& path, const Json& json);
 
 /// Reads a file. Throws Error{input} if it is unreadable, and with line and column for broken JSON.
 Json read_json(const std::string& path);
+
+/// [x, y, z]
+inline Json json_array(const glm::dvec3& v)
+{
+    return Json::array({v.x, v.y, v.z});
+}
 
 /// The number with the fewest digits that rounds to `value` as a float.
 double shortest(float value);

@@ -18,12 +18,12 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "atlas/near/world_lumels.h"
 #include "base/core/frame.h"
 #include "base/core/luminance.h"
 #include "base/core/parallel.h"
+#include "base/core/pi.h"
 #include "base/core/sphere.h"
 #include "lights/lamps.h"
 #include "rays/paths/samples.h"
@@ -31,7 +31,6 @@
 namespace lumel {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kFar = std::numeric_limits<float>::max();
 
 /// Maximum number of spheres: each costs every ray a little. More are merged.
@@ -48,8 +47,8 @@ constexpr std::uint32_t kLampPoints = 16;
 constexpr std::size_t kLumelsPerTask = 16, kLumelsPerStep = 4096;
 
 /// Dimension pairs of a sample's random numbers.
-constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kLampPointPair = 2, kLampChoicePair = 3,
-                        kDiscPair = 4, kSeedPair = 5;
+constexpr std::uint32_t kReceiverPair = 0, kDirectionPair = 1, kLampPointPair = 2,
+                        kLampChoicePair = 3, kDiscPair = 4, kSeedPair = 5;
 
 /// Cone of directions from a point to a sphere; from within it, all directions.
 struct Cone {
@@ -305,7 +304,7 @@ glm::vec3 Gatherer::gather(std::uint32_t i, std::uint32_t half, std::uint64_t& r
 
 LumelPoint Gatherer::point_of(const Receiver& receiver, const PathSamples& samples) const
 {
-    LumelPoint x = world_now_.point_on(receiver.lumel, samples.stratified(kPointPair));
+    LumelPoint x = world_now_.point_on(receiver.lumel, samples.stratified(kReceiverPair));
     if (options_.centre)
         x = {world_now_[receiver.lumel].centre, world_now_[receiver.lumel].normal};
     x.position += ray_offset_ * x.normal;

@@ -17,7 +17,7 @@ namespace lumel {
 namespace {
 
 /// Points per progress report, and minimum per task.
-constexpr std::size_t kPointsPerStep = 64, kGrain = 1;
+constexpr std::size_t kPointsPerStep = 64, kPointsPerTask = 1;
 /// Points along the longer side of a plane without --spacing.
 constexpr double kPointsAlongPlane = 20.0;
 constexpr double kPercent = 100.0;
@@ -44,7 +44,7 @@ void read_all(const FinishedBake& bake, const LightMeter& meter, std::vector<Mea
               Stages& stages)
 {
     const bool done = parallel_steps(
-        rows.size(), kPointsPerStep, kGrain,
+        rows.size(), kPointsPerStep, kPointsPerTask,
         [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 MeasurePoint& point = rows[i].point;
@@ -74,21 +74,16 @@ std::optional<double> outdoors(const FinishedBake& bake, const LightMeter& meter
     return double(*lights.overcast) * double(lights.sky_scale);
 }
 
-Json numbers(const glm::dvec3& v)
-{
-    return {v.x, v.y, v.z};
-}
-
 Json json_of(const MeasureRow& row, const std::optional<double>& outside)
 {
-    Json json = {{"place", numbers(row.point.place)},
-                 {"normal", numbers(row.point.normal)},
+    Json json = {{"place", json_array(row.point.place)},
+                 {"normal", json_array(row.point.normal)},
                  {"inside", row.reading.inside}};
     if (row.reading.inside)
         return json;
     json["illuminance"] = row.reading.lux;
     json["noise"] = row.reading.noise;
-    json["light"] = numbers(glm::dvec3(row.reading.light));
+    json["light"] = json_array(glm::dvec3(row.reading.light));
     if (outside)
         json["daylight_factor"] = kPercent * row.reading.lux / *outside;
     return json;

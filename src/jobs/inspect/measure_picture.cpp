@@ -15,7 +15,7 @@ namespace {
 /// Side of a plane's image, and maximum size of a point in it [pixels].
 constexpr int kPlaneSide = 720, kMaxOfPoint = 96;
 /// Minimum alpha of a covered pixel.
-constexpr float kCovered = 0.5f;
+constexpr float kCoveredTexel = 0.5f;
 constexpr float kNothing = -1.0f;  ///< see false_colour()
 
 }  // namespace
@@ -48,7 +48,7 @@ Image preview_picture(const gpu::Device& device, const Prepared& prepared,
             // White materials send H / π.
             const double arriving =
                 std::numbers::pi * luminance({pixel[0], pixel[1], pixel[2]}) / double(pixel[3]);
-            lux.at(x, y)[0] = pixel[3] < kCovered ? kNothing : float(arriving);
+            lux.at(x, y)[0] = pixel[3] < kCoveredTexel ? kNothing : float(arriving);
         }
     return false_colour(lux, scale_for(lux.values));
 }

@@ -15,7 +15,7 @@ namespace lumel {
 namespace {
 
 /// Probes per progress report, and minimum per task.
-constexpr std::size_t kProbesPerStep = 64, kGrain = 1;
+constexpr std::size_t kProbesPerStep = 64, kProbesPerTask = 1;
 /// Version of the file format, for readers.
 constexpr int kVersion = 1;
 
@@ -53,7 +53,7 @@ void read_all(const FinishedBake& bake, const ProbesOptions& options, std::vecto
         bake.prepared.scene, bake.prepared.rays, bake.prepared.atlas, bake.prepared.lumels,
         bake.irradiance, {.samples = options.samples, .seed = seed_of(bake.record.solver.method)});
     const bool done = parallel_steps(
-        rows.size(), kProbesPerStep, kGrain,
+        rows.size(), kProbesPerStep, kProbesPerTask,
         [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
                 rows[i].light =
@@ -65,17 +65,12 @@ void read_all(const FinishedBake& bake, const ProbesOptions& options, std::vecto
         throw_stopped();
 }
 
-Json numbers(const glm::dvec3& v)
-{
-    return {v.x, v.y, v.z};
-}
-
 Json json_of(const ProbeRow& row)
 {
     Json json;
     if (!row.place.name.empty())
         json["name"] = row.place.name;
-    json["position"] = numbers(row.place.position);
+    json["position"] = json_array(row.place.position);
     json["inside"] = row.light.inside;
     if (row.light.inside)
         return json;
@@ -101,7 +96,7 @@ std::string report_of(const FinishedBake& bake, const ProbesSummary& summary)
     if (bake.record.error >= 0.0)
         json["error_of_bake"] = bake.record.error;
     if (const auto& grid = summary.grid)
-        json["grid"] = {{"first", numbers(grid->first)},
+        json["grid"] = {{"first", json_array(grid->first)},
                         {"spacing", grid->spacing},
                         {"counts", {grid->counts.x, grid->counts.y, grid->counts.z}},
                         {"order", "the first probes of the list: x fastest, then y, then z"}};

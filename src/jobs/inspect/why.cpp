@@ -115,11 +115,6 @@ std::vector<std::pair<std::string, double>> sums_by_name(const std::vector<WhyRo
     return list;
 }
 
-Json numbers(const glm::vec3& v)
-{
-    return {v.x, v.y, v.z};
-}
-
 std::string report_of(const WhySummary& summary)
 {
     Json json;
@@ -127,9 +122,9 @@ std::string report_of(const WhySummary& summary)
     json["lumel"] = {{"instance", summary.instance},
                      {"page", summary.page},
                      {"texel", {summary.texel.x, summary.texel.y}},
-                     {"place", numbers(summary.place)},
-                     {"irradiance", numbers(summary.solved)},
-                     {"found", numbers(summary.found)}};
+                     {"place", json_array(summary.place)},
+                     {"irradiance", json_array(summary.solved)},
+                     {"found", json_array(summary.found)}};
     json["by_name"] = Json::array();
     for (const auto& [name, share] : summary.by_name)
         json["by_name"].push_back({{"name", name}, {"share", share}});
@@ -139,10 +134,10 @@ std::string report_of(const WhySummary& summary)
         if (!row.material.empty())
             sender["material"] = row.material;
         if (row.place) {
-            sender["place"] = numbers(*row.place);
+            sender["place"] = json_array(*row.place);
             sender["distance"] = row.distance;
         }
-        sender["light"] = numbers(row.light);
+        sender["light"] = json_array(row.light);
         json["senders"].push_back(std::move(sender));
     }
     return json_text(json);

@@ -86,11 +86,6 @@ std::uint64_t bytes_of_file(const Scene& scene)
     return none ? 0 : std::uint64_t(bytes);
 }
 
-bool is_links(const BakeOptions& options)
-{
-    return std::holds_alternative<LinksOptions>(options.solver.method);
-}
-
 std::uint64_t layers_of(const BakeOptions& options)
 {
     return options.directional == Directional::none  ? 0
@@ -121,7 +116,7 @@ std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool
     const std::uint64_t maps =
         (2 + layers) * sizes.texels * kOfTexel + (1 + layers) * sizes.lumels * sizeof(glm::vec3);
     const std::uint64_t solving =
-        is_links(options) ? LinkRadiosity::sweep_bytes(sizes.lumels, sizes.texels) : 0;
+        uses_links(options) ? LinkRadiosity::sweep_bytes(sizes.lumels, sizes.texels) : 0;
     const std::uint64_t drawing =
         options.preview_width > 0
             ? sizes.preview.host + (shared ? sizes.preview.device + kCompilerBytes : 0)
@@ -136,7 +131,7 @@ void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& optio
     if (const auto* matrix = std::get_if<MatrixOptions>(&options.solver.method))
         memory.solver = kKeptLumelBytes * lumels +
                         LumelRowsBuilder::host_bytes(lumels, matrix->transport.patches);
-    if (!is_links(options))
+    if (!uses_links(options))
         return;
     if (options.keep_links > 0) {
         memory.solver = kKeptLumelBytes * lumels;

@@ -15,6 +15,11 @@ inline int fixed_side(const AtlasOptions& options)
     return std::min(options.size, options.max_size);
 }
 
+inline bool uses_links(const BakeOptions& options)
+{
+    return std::holds_alternative<LinksOptions>(options.solver.method);
+}
+
 /// Triangles of all instances.
 std::uint64_t triangle_count(const Scene& scene);
 

@@ -26,11 +26,6 @@ constexpr double kCovered = 0.85;
 constexpr double kSpare = 0.9;
 constexpr int kSizeStep = 16;  ///< step of proposed sizes [texels]
 
-bool is_links(const BakeOptions& options)
-{
-    return std::holds_alternative<LinksOptions>(options.solver.method);
-}
-
 /// Largest side that fits, given that a bake takes `needed` bytes at `side`, of which `fixed` do
 /// not depend on it; 0: none.
 int side_that_fits(int side, std::uint64_t needed, std::uint64_t fixed, std::uint64_t limit)
@@ -141,7 +136,7 @@ void check_memory(const Prepared& prepared, const BakeOptions& options, const Me
 std::uint64_t bytes_for_links(const Prepared& prepared, const BakeOptions& options,
                               const MemoryLimits& limits)
 {
-    if (!is_links(options) || limits.host == 0)
+    if (!uses_links(options) || limits.host == 0)
         return 0;
     const HostMemory host = host_memory(prepared, options, limits.shared);
     const std::uint64_t others = host.without_links();

@@ -19,7 +19,7 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kBlock = 256, kBlocksPerStep = 64;
+constexpr std::size_t kBlock = 256, kBlocksPerPass = 64;
 /// Rays of one half per source: of all lumels, and of those that see part of a source;
 /// kTimesToSmall × as many to small sources, whose shadows are sharp.
 constexpr std::uint32_t kFewRays = 8, kManyRays = 16, kTimesToSmall = 2;
@@ -32,9 +32,9 @@ constexpr std::uint32_t kMaxHalved = 3;
 constexpr float kDiffers = 0.25f, kCounts = 0.01f;
 
 /// Neighbours on each side in the order of lumels that are compared for the sources they see.
-constexpr std::size_t kNeighbours = 4;
+constexpr std::size_t kComparedNeighbours = 4;
 /// Maximum rays of one half to a source, and maximum growth per pass.
-constexpr std::uint32_t kMaxRays = kManyRays << 9, kMaxTimes = 16;
+constexpr std::uint32_t kMaxShadowRays = kManyRays << 9, kMaxTimes = 16;
 /// Passes with less growth are skipped.
 constexpr double kMinTimes = 1.41;
 /// Bisection steps for the number of rays that a variance needs, and the search range beyond the
@@ -52,7 +52,7 @@ constexpr std::uint32_t kMaxSought = 2;
 constexpr std::uint32_t kManyStream = 0x10000;
 
 /// Dimension pairs of a ray's random numbers.
-constexpr std::uint32_t kStartPair = 0, kChoicePair = 1, kSourcePair = 2;
+constexpr std::uint32_t kLumelPair = 0, kLampChoicePair = 1, kLampPair = 2;
 
 }  // namespace
 
@@ -226,11 +226,11 @@ void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t 
                               2 * to.source + (alone ? 0 : 1) + (many ? kManyStream : 0));
         for (std::uint32_t k = begin; k < begin + rays; ++k) {
             const PathSamples samples(stream, k);
-            const RayOrigin start = starts_.start(i, samples.stratified(kStartPair));
+            const RayOrigin start = starts_.start(i, samples.stratified(kLumelPair));
             const Choice choice = alone ? Choice{to.source, 1.0f}
-                                        : choose(*to.rest, samples.stratified(kChoicePair).x);
-            look(start, choice.source, choice.factor, samples.stratified(kSourcePair),
-                 samples.bits(kSourcePair), wave.looks);
+                                        : choose(*to.rest, samples.stratified(kLampChoicePair).x);
+            look(start, choice.source, choice.factor, samples.stratified(kLampPair),
+                 samples.bits(kLampPair), wave.looks);
             wave.cells.push_back(start.cell);
         }
     }
@@ -347,7 +347,7 @@ bool DirectEstimator::step()
     const std::vector<std::uint32_t>& list = first_pass_ ? order_ : many_;
     if (first_pass_ && sources_.count() == 0)
         return false;
-    const std::size_t last_block = std::min(done_ + kBlocksPerStep, blocks_.size());
+    const std::size_t last_block = std::min(done_ + kBlocksPerPass, blocks_.size());
     const std::size_t grain = place_.caster.batch() / (kBlock * 2 * kFewRays);
     parallel_for(last_block - done_, grain, [&](std::size_t first, std::size_t last) {
         find(list, done_ + first, done_ + last);
@@ -380,7 +380,7 @@ std::uint32_t DirectEstimator::wanted(std::uint32_t i, double rays) const
     if (!(rays > kMinTimes * double(std::max(taken, kFewRays))))
         return 0;
     const double doubled = std::round(std::log2(std::max(rays / double(kManyRays), 1.0)));
-    const std::uint32_t most = std::min(std::max(taken, kManyRays) * kMaxTimes, kMaxRays);
+    const std::uint32_t most = std::min(std::max(taken, kManyRays) * kMaxTimes, kMaxShadowRays);
     const auto all = std::uint32_t(std::min(std::exp2(doubled) * double(kManyRays), double(most)));
     return all > taken ? all - taken : 0;
 }
@@ -413,7 +413,7 @@ bool DirectEstimator::refine(double share, std::uint64_t most, const std::vector
     };
     if (!(widest > 0.0))
         return false;
-    double low = double(kFewRays) / widest, high = kWidestSearch * double(kMaxRays) / widest;
+    double low = double(kFewRays) / widest, high = kWidestSearch * double(kMaxShadowRays) / widest;
     for (int step = 0; step < kSearchSteps; ++step) {
         const double middle = std::sqrt(low * high);
         (enough(middle) ? high : low) = middle;
@@ -485,7 +485,7 @@ void DirectEstimator::mark_uncertain_hidden()
     });
     // Charts can be small: also compares neighbours in space, which the order approximates.
     for (std::size_t o = 0; o < order_.size(); ++o)
-        for (std::size_t n = o + 1; n < std::min(o + 1 + kNeighbours, order_.size()); ++n) {
+        for (std::size_t n = o + 1; n < std::min(o + 1 + kComparedNeighbours, order_.size()); ++n) {
             const std::uint32_t i = order_[o], j = order_[n];
             if (uncertain_[i] || uncertain_[j] || seen_[i] != seen_[j])
                 needs[i] = needs[j] = 1;

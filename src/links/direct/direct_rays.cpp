@@ -12,12 +12,12 @@ namespace lumel {
 namespace {
 
 /// Minimum factor on the variance per pass, since its first estimate is rough.
-constexpr double kMinShare = 1.0 / 16.0;
+constexpr double kMinPassShare = 1.0 / 16.0;
 /// A pass adds at most this multiple of the rays so far.
 constexpr std::uint64_t kMaxMore = 4;
 /// Maximum rays per lumel, on average: light from a lamp in a lampshade or a niche can take rays
 /// without end.
-constexpr std::uint64_t kMaxRays = 2048;
+constexpr std::uint64_t kMaxDirectRays = 2048;
 /// Random stream of these rays.
 constexpr std::uint32_t kDirectStream = 2;
 
@@ -54,11 +54,11 @@ void DirectRays::step()
         return;
     }
     estimate();
-    double share = kMinShare;
+    double share = kMinPassShare;
     if (target_error_ > 0.0 && state_.error > 0.0)
-        share = std::clamp(std::pow(target_error_ / state_.error, 2.0), kMinShare, 1.0);
+        share = std::clamp(std::pow(target_error_ / state_.error, 2.0), kMinPassShare, 1.0);
     const std::vector<double> even(order_.size(), 1.0);
-    const std::uint64_t most = kMaxRays * order_.size(), taken = finder_.rays();
+    const std::uint64_t most = kMaxDirectRays * order_.size(), taken = finder_.rays();
     state_.full = taken >= most || !finder_.refine(share, std::min(kMaxMore * taken, most), even);
 }
 

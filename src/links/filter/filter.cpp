@@ -10,20 +10,7 @@
 namespace lumel {
 namespace {
 
-/// Two neighbours can be separated by geometry that is closer than this multiple of their distance;
-/// a ray between them, kLift sides of a lumel above them, decides.
-constexpr float kMayStandBetween = 1.5f, kLift = 0.05f;
-constexpr std::size_t kGrain = 256;
-
-/// Calls visit(lumel, texel of the tile) for each lumel within the tile.
-template <class Visit>
-void for_each_lumel(const FilterTile& tile, const Visit& visit)
-{
-    for (int y = 0; y < kTile; ++y)
-        for (int x = 0; x < kTile; ++x)
-            if (const std::uint32_t i = tile.lumel[wide_at(x, y)]; i != kNoLumel)
-                visit(i, std::size_t(y) * kTile + std::size_t(x));
-}
+constexpr std::size_t kLumelsPerTask = 256;
 
 glm::vec3 weighted(const std::array<Inner, 3>& sum, const Inner& weight, std::size_t t)
 {
@@ -54,7 +41,7 @@ ChartFilter::ChartFilter(const LinkScene& place, const WorldLumels& world, const
       nearest_(nearest),
       steps_(world.size())
 {
-    parallel_for(world.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(world.size(), kLumelsPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             steps_[i] = find_steps(i);
     });
@@ -147,8 +134,9 @@ std::vector<Mean> ChartFilter::filter(const Solutions& found) const
         Inner inner;
         for (std::uint32_t k = 0; k < kSolutions; ++k) {
             find_variance(tile, k, inner);
-            for_each_lumel(tile,
-                           [&](std::uint32_t i, std::size_t t) { variance[k][i] = inner[t]; });
+            for_each_lumel(tile, [&](std::uint32_t i, std::size_t t, std::size_t) {
+                variance[k][i] = inner[t];
+            });
         }
     });
     const std::vector<float> none(world_.size(), 0.0f);
@@ -164,7 +152,7 @@ std::vector<Mean> ChartFilter::filter(const Solutions& found) const
                 const FilteredTile& of = (*filtered)[b][k];
                 const Estimates &one = found[(k + 1) % kSolutions],
                                 &other = found[(k + 2) % kSolutions];
-                for_each_lumel(tile, [&](std::uint32_t i, std::size_t t) {
+                for_each_lumel(tile, [&](std::uint32_t i, std::size_t t, std::size_t) {
                     take(one[i], other[i], weighted(of.one, of.weight, t),
                          weighted(of.other, of.weight, t), i, result[b]);
                 });

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "atlas/packing/lumel.shared.h"
 #include "links/direct/solutions.h"
 
 namespace lumel {
@@ -43,6 +44,21 @@ struct FilterTile {
     std::array<Wide<float>, kSolutions>
         variance;  ///< per cross-filtered solution, summed over channels
 };
+
+/// Two neighbours can be separated by geometry that is closer than this multiple of their distance;
+/// a ray between them, kLift sides of a lumel above them, decides.
+inline constexpr float kMayStandBetween = 1.5f, kLift = 0.05f;
+
+/// Calls visit(lumel, index of an Inner, index of a Wide) for each lumel within the tile, row by
+/// row.
+template <class Visit>
+void for_each_lumel(const FilterTile& tile, const Visit& visit)
+{
+    for (int y = 0; y < kTile; ++y)
+        for (int x = 0; x < kTile; ++x)
+            if (const std::uint32_t i = tile.lumel[wide_at(x, y)]; i != kNoLumel)
+                visit(i, std::size_t(y) * kTile + std::size_t(x), wide_at(x, y));
+}
 
 /// A value for each texel within a tile, in rows.
 using Inner = std::array<float, std::size_t(kTile) * kTile>;

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "atlas/lumels/sides.h"
+#include "base/core/luminance.h"
 #include "base/core/parallel.h"
 #include "links/filter/filter_tile.h"
 
@@ -15,30 +16,12 @@ namespace {
 /// Lumels and tiles per piece of work: a few milliseconds.
 constexpr std::size_t kLumelsAtOnce = 8192, kTilesAtOnce = 4;
 /// Lumels per task.
-constexpr std::size_t kGrain = 256;
-/// Two neighbours can be separated by geometry that is closer than this multiple of their distance;
-/// a ray between them, kLift sides of a lumel above them, decides.
-constexpr float kMayStandBetween = 1.5f, kLift = 0.05f;
-
-/// Calls visit(lumel, texel of the tile) for each lumel within the tile, row by row.
-template <class Visit>
-void for_each_lumel(const FilterTile& tile, const Visit& visit)
-{
-    for (int y = 0; y < kTile; ++y)
-        for (int x = 0; x < kTile; ++x)
-            if (const std::uint32_t i = tile.lumel[wide_at(x, y)]; i != kNoLumel)
-                visit(i, std::size_t(y) * kTile + std::size_t(x), wide_at(x, y));
-}
+constexpr std::size_t kShownPerTask = 256;
 
 /// Irradiance gathered by rays [lx].
 glm::vec3 by_rays(const LumelSweeps& sweeps, std::span<const glm::vec3> sky, std::size_t lumel)
 {
     return sweeps.received(lumel) + (sky.empty() ? glm::vec3(0.0f) : sky[lumel]);
-}
-
-float sum_of(const glm::vec3& light)
-{
-    return light.r + light.g + light.b;
 }
 
 }  // namespace
@@ -91,7 +74,7 @@ bool DisplayFilter::step()
 {
     const auto do_lumels = [&](const auto& work) {
         const std::size_t first = next_, last = std::min(first + kLumelsAtOnce, places_.size());
-        parallel_for(last - first, kGrain, [&](std::size_t from, std::size_t to) {
+        parallel_for(last - first, kShownPerTask, [&](std::size_t from, std::size_t to) {
             for (std::size_t i = first + from; i < first + to; ++i)
                 work(i);
         });
@@ -260,9 +243,9 @@ float DisplayFilter::noise_left(std::uint32_t i, const Tile& of) const
         variance += one.weight * one.weight * noise_[one.lumel];
     }
     // The ratio of two weighted sums, so Σ w cancels. The variance is summed over three channels.
-    constexpr float kChannels = 3.0f;
-    const float mean = sum_of(sum) / kChannels;
-    return mean > 0.0f ? std::sqrt(variance / kChannels) / mean : 0.0f;
+    constexpr float kOfColour = 3.0f;
+    const float mean = sum_of(sum) / kOfColour;
+    return mean > 0.0f ? std::sqrt(variance / kOfColour) / mean : 0.0f;
 }
 
 /// Requires weights.

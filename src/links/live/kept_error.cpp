@@ -20,12 +20,12 @@ namespace lumel {
 namespace {
 
 /// Lumels are dark below this fraction of the mean, as in LinkRadiosity.
-constexpr double kDark = 1.0 / 3.0;
+constexpr double kDarkBelow = 1.0 / 3.0;
 /// Convergence threshold of a half, for all and for dark lumels: a twentieth of an error of one
 /// percent.
 constexpr double kResidual = 5e-4;
 /// Lumels per task, and per part of a sweep between progress reports.
-constexpr std::size_t kGrain = 4096, kStep = 1u << 18;
+constexpr std::size_t kJudgedPerTask = 4096, kJudgedPerStep = 1u << 18;
 /// Progress at which the filter's bias is estimated.
 constexpr double kHalves = 0.4;
 
@@ -36,7 +36,7 @@ struct Half {
     bool rests = false;
 
     /// Runs part of a sweep.
-    void step() { rests = rests || (sweeps.step(kStep) && sweeps.rests(kResidual)); }
+    void step() { rests = rests || (sweeps.step(kJudgedPerStep) && sweeps.rests(kResidual)); }
     /// Irradiance gathered by rays [lx].
     glm::vec3 by_rays(std::size_t i, const DisplayFilter* filter) const
     {
@@ -81,7 +81,7 @@ std::vector<float> noise_of(const LightAtRest& light, const DisplayFilter* filte
         notify(progress, 0.0);
     }
     std::vector<float> noise(light.lumels.size(), 0.0f);
-    parallel_for(noise.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(noise.size(), kJudgedPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             if (!is_buried(light, i)) {
                 const glm::vec3 d = light.off[i] + 0.5f * (halves[0].by_rays(i, filter) -
@@ -100,7 +100,7 @@ std::vector<float> wrong_of(const LightAtRest& light, DisplayFilter& filter,
     std::array<std::vector<glm::vec3>, 4> quarters;
     for (std::vector<glm::vec3>& quarter : quarters)
         quarter.resize(count);
-    parallel_for(count, kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(count, kJudgedPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const std::array<glm::vec3, 4> of = light.links.by_quarters(
                 i, [&](std::uint32_t end) { return glm::vec3(light.sweeps.sent(end)); });
@@ -113,7 +113,7 @@ std::vector<float> wrong_of(const LightAtRest& light, DisplayFilter& filter,
         notify(progress, 0.0);
     const std::vector<glm::vec3>&a = quarters[2], &b = quarters[3];
     std::vector<float> wrong(count, 0.0f);
-    parallel_for(count, kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(count, kJudgedPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             if (!is_buried(light, i))
                 wrong[i] = glm::dot(filter.filtered(a, i) - a[i], filter.filtered(b, i) - b[i]);
@@ -158,7 +158,7 @@ KeptError error_of(const LightAtRest& light, DisplayFilter* filter,
     const Sums all = sums_below(std::numeric_limits<double>::infinity());
     if (!(all.light > 0.0))
         return {};
-    const Sums dark = sums_below(kDark * all.light / std::max(all.count, 1.0));
+    const Sums dark = sums_below(kDarkBelow * all.light / std::max(all.count, 1.0));
     return {all.relative(), dark.relative()};
 }
 

@@ -12,9 +12,9 @@ namespace lumel {
 namespace {
 
 /// Lumels per task: for all their light, and for the part that a move can change.
-constexpr std::size_t kGrain = 256, kFollowed = 64;
+constexpr std::size_t kFoundPerTask = 256, kFollowedPerTask = 64;
 /// Lumels between progress reports.
-constexpr std::size_t kStep = 16384;
+constexpr std::size_t kFoundPerStep = 16384;
 /// Emitters of more sources select one for each ray, by sampling weight.
 constexpr std::size_t kMaxAlone = 8;
 /// Dimension pairs of a ray's random numbers.
@@ -120,7 +120,7 @@ void LightGroups::find(Group& group, const ProgressCallback& progress)
     const std::size_t lumels = place_.lumels.lumels.size();
     make_room(group);
     parallel_steps(
-        lumels, kStep, kGrain,
+        lumels, kFoundPerStep, kFoundPerTask,
         [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
                 find_at(group, i);
@@ -139,7 +139,7 @@ std::uint64_t LightGroups::follow(std::uint32_t thing, const Box& before, std::s
     std::atomic<std::uint64_t> found = 0;
     for (Group& group : groups_) {
         const bool moved = is_moved(group, thing);
-        parallel_for(last - first, kFollowed, [&](std::size_t from, std::size_t to) {
+        parallel_for(last - first, kFollowedPerTask, [&](std::size_t from, std::size_t to) {
             std::uint64_t count = 0;
             for (std::size_t i = first + from; i < first + to; ++i)
                 if (moved || place_.object_of(i) == thing || may_cross(group, i, before, now)) {

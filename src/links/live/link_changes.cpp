@@ -10,7 +10,7 @@ namespace lumel {
 namespace {
 
 /// Lumels per task.
-constexpr std::size_t kGrain = 1024;
+constexpr std::size_t kComparedPerTask = 1024;
 /// With more moved instances, or a larger fraction of changed lumels, all links are traced:
 /// searching for changed links would take as long.
 constexpr std::size_t kMaxMoved = 64;
@@ -78,7 +78,7 @@ bool fits(const StoredLinks& kept, const LinkContext& place, std::uint32_t rays,
 std::vector<std::uint64_t> lumel_hashes(const WorldLumels& world, const Lumels& lumels)
 {
     std::vector<std::uint64_t> prints(lumels.lumels.size());
-    parallel_for(prints.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(prints.size(), kComparedPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const Lumel& lumel = lumels.lumels[i];
             const auto pieces = world.pieces(world[i]);

@@ -7,7 +7,7 @@ namespace lumel {
 namespace {
 
 /// Lumels per task, and per part of a sweep between progress reports.
-constexpr std::size_t kGrain = 4096, kStep = 1u << 18;
+constexpr std::size_t kRelitPerTask = 4096, kRelitPerStep = 1u << 18;
 /// Progress fractions: direct light of the total, sweeps of the rest, filter weights of the
 /// remainder.
 constexpr double kDirect = 0.7, kSweeps = 0.3, kWeights = 0.3;
@@ -74,7 +74,7 @@ std::vector<glm::vec3> LinkRelighter::irradiance(const ProgressCallback& progres
     if (options_.filter)
         make_weights(filter.emplace(place(), links_), part_of(rest, 0.0, kWeights));
     std::vector<glm::vec3> result(lumels_.lumels.size());
-    parallel_for(result.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(result.size(), kRelitPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             result[i] = filter ? filter->irradiance(*sweeps_, sky, i) : sweeps_->irradiance(i);
     });
@@ -100,7 +100,7 @@ std::vector<glm::vec3> LinkRelighter::light_of_lamps(std::vector<glm::vec3>& off
 void LinkRelighter::settle(const ProgressCallback& progress)
 {
     for (bool rests = false; !rests;) {
-        rests = sweeps_->step(kStep) && sweeps_->rests(options_.residual);
+        rests = sweeps_->step(kRelitPerStep) && sweeps_->rests(options_.residual);
         notify(progress, rests ? 1.0 : 0.0);
     }
 }

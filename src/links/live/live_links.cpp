@@ -15,7 +15,7 @@ namespace {
 
 /// Lumels between clock checks: of a sweep, about 0.1 ms; of an update after a move, at most 5 ms,
 /// if all are on the object.
-constexpr std::size_t kStep = 4096, kPiece = 256;
+constexpr std::size_t kSweptPerStep = 4096, kPiece = 256;
 
 /// After this fraction of all links is retraced, a sweep runs before the rest.
 constexpr double kWorthASweep = 0.01;
@@ -417,7 +417,7 @@ void LiveLinks::sweep()
 {
     if (edited_)
         begin();
-    if (!sweeps_.step(kStep))
+    if (!sweeps_.step(kSweptPerStep))
         return;
     swept_ = true;
     ++state_.all_sweeps;
@@ -466,7 +466,7 @@ std::uint64_t LiveLinks::bytes() const
 std::vector<glm::vec3> LiveLinks::shown() const
 {
     std::vector<glm::vec3> result(lumels().lumels.size());
-    parallel_for(result.size(), kStep, [&](std::size_t first, std::size_t last) {
+    parallel_for(result.size(), kSweptPerStep, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             result[i] = filter_.irradiance(sweeps_, sky_light_, i);
     });
@@ -477,7 +477,7 @@ std::vector<float> LiveLinks::error_estimate() const
 {
     const auto to_come = edited_ ? 1.0f : float(std::max(state_.residual, state_.dark_residual));
     std::vector<float> result(lumels().lumels.size());
-    parallel_for(result.size(), kStep, [&](std::size_t first, std::size_t last) {
+    parallel_for(result.size(), kSweptPerStep, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             result[i] = std::min(filter_.noise(sweeps_, sky_light_, i) + to_come, 1.0f);
     });

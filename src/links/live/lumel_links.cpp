@@ -24,9 +24,9 @@ namespace lumel {
 namespace {
 
 /// Lumels per task: for all their links, and for those that a move can change.
-constexpr std::size_t kGrain = 256, kFollowed = 64;
+constexpr std::size_t kTracedPerTask = 256, kRetracedPerTask = 64;
 /// Lumels between progress reports.
-constexpr std::size_t kStep = 16384;
+constexpr std::size_t kTracedPerStep = 16384;
 /// Random numbers of a ray: positions within its direction cell and origin cell; assignment of four
 /// rays to quarters.
 constexpr std::uint32_t kAcross = 1, kStart = 2, kStartAcross = 3, kQuarter = 4;
@@ -109,7 +109,7 @@ LumelLinks::LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32
 void LumelLinks::trace_all(const ProgressCallback& progress)
 {
     parallel_steps(
-        lumels_, kStep, kGrain,
+        lumels_, kTracedPerStep, kTracedPerTask,
         [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
                 trace(i);
@@ -128,7 +128,7 @@ void LumelLinks::take_over(const StoredLinks& kept, const LinkChanges& changes,
     links_ = kept.links;  // may contain StoredLinks::gone()
     std::mutex adding;
     parallel_steps(
-        lumels_, kStep, kFollowed,
+        lumels_, kTracedPerStep, kRetracedPerTask,
         [&](std::size_t first, std::size_t last) {
             Retraced sum;
             for (std::size_t i = first; i < last; ++i)
@@ -193,7 +193,7 @@ void LumelLinks::for_rays_towards(const Rays& rays_of, std::size_t i, const Box&
 
 void LumelLinks::find_sky()
 {
-    parallel_for(lumels_, kGrain, [&](std::size_t first, std::size_t last) {
+    parallel_for(lumels_, kTracedPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             if (!(place_.lumels.lumels[i].flags & kLumelBuried))
                 find_sky(Rays(*this, i), i);
@@ -313,12 +313,12 @@ std::uint32_t LumelLinks::quarter_of(std::size_t lumel, std::uint32_t ray) const
 Retraced LumelLinks::follow(std::uint32_t thing, std::span<const std::uint32_t> lumels)
 {
     const Box box = place_.rays.box(thing);
-    std::vector<Retraced> blocks((lumels.size() + kFollowed - 1) / kFollowed);
+    std::vector<Retraced> blocks((lumels.size() + kRetracedPerTask - 1) / kRetracedPerTask);
     parallel_for(blocks.size(), 1, [&](std::size_t from, std::size_t to) {
         for (std::size_t b = from; b < to; ++b)
             for (const std::uint32_t i :
-                 lumels.subspan(b * kFollowed)
-                     .first(std::min(kFollowed, lumels.size() - b * kFollowed)))
+                 lumels.subspan(b * kRetracedPerTask)
+                     .first(std::min(kRetracedPerTask, lumels.size() - b * kRetracedPerTask)))
                 blocks[b] += follow(i, thing, box);
     });
     Retraced sum;

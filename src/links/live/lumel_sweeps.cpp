@@ -8,7 +8,7 @@ namespace lumel {
 namespace {
 
 /// Lumels between these fractions of the mean are dark; darker ones look black.
-constexpr double kDarkest = 0.005, kDark = 0.3;
+constexpr double kDarkestJudged = 0.005, kDarkJudged = 0.3;
 
 /// Minimum assumed convergence: changes shrink at least by this factor.
 constexpr double kSlowest = 1.0 - 1e-6;
@@ -92,7 +92,7 @@ bool LumelSweeps::step(std::size_t lumels)
         const double light = all_channels(now), change = light - all_channels(sent_[next_]);
         sent_[next_] = now;
         all_.add(light, change);
-        if (light > kDarkest * mean_ && light < kDark * mean_)
+        if (light > kDarkestJudged * mean_ && light < kDarkJudged * mean_)
             dark_.add(light, change);
     }
     if (next_ < direct_.size())

@@ -9,38 +9,28 @@
 namespace lumel {
 namespace {
 
-/// Random streams of sub-lumels and of links.
-constexpr std::uint32_t kPartStream = 1, kLinkStream = 3;
 /// Blocks of lumels per step: a million rays.
-constexpr std::size_t kBlocksPerStep = 64;
+constexpr std::size_t kBlocksPerGather = 64;
 /// Standard deviation of one ray, relative to the mean of all light, in the furnished room of
 /// scenes/; other rooms have less.
 constexpr double kDeviation = 0.5;
-constexpr double kMinRays = 64.0, kMaxRays = 4096.0;
+constexpr double kMinGatherRays = 64.0, kMaxGatherRays = 4096.0;
 /// Target error if none is given.
 constexpr double kUsualError = 0.015;
-
-std::vector<char> buried(const Lumels& lumels)
-{
-    std::vector<char> result;
-    for (const Lumel& lumel : lumels.lumels)
-        result.push_back((lumel.flags & kLumelBuried) != 0);
-    return result;
-}
 
 }  // namespace
 
 std::uint32_t gather_rays(double error)
 {
     const double root = kDeviation / (error > 0.0 ? error : kUsualError);
-    return std::uint32_t(std::clamp(root * root, kMinRays, kMaxRays));
+    return std::uint32_t(std::clamp(root * root, kMinGatherRays, kMaxGatherRays));
 }
 
 FinalGather::FinalGather(const DirectRays& direct, std::vector<glm::vec3> received,
                          std::uint32_t rays, std::uint32_t seed)
     : direct_(direct),
       sent_(std::move(received)),
-      parts_(direct.world(), direct.cells(), direct.place().rays, buried(direct.place().lumels),
+      parts_(direct.world(), direct.cells(), direct.place().rays, direct.place().lumels,
              PathSamples::hash(seed, kPartStream)),
       tracer_(direct.place(), direct.sources(), direct.world(), direct.starts(), direct.cells(),
               parts_, direct.finder(), direct.order(), seed),
@@ -59,7 +49,7 @@ void FinalGather::step()
         gathered_ = LinkSet(parts_.count());
         gathered_.rounds.emplace_back(tracer_.blocks());
     }
-    const std::size_t last = std::min(block_ + kBlocksPerStep, tracer_.blocks());
+    const std::size_t last = std::min(block_ + kBlocksPerGather, tracer_.blocks());
     const std::vector<std::uint16_t> rays(sent_.size(), kGatherRays);
     tracer_.trace(block_, last, {rays, kLinkStream + round_, nullptr}, gathered_);
     take(last);

@@ -38,7 +38,7 @@ constexpr std::uint32_t kFirstRays = 8;
 constexpr double kMinMore = 0.4, kMaxMore = 3.0;
 /// Rays allocated by deviation reduce the variance like 1 / kAdaptiveGain as many uniform ones.
 constexpr double kAdaptiveGain = 0.6;
-constexpr std::uint32_t kMaxRays = 4096;
+constexpr std::uint32_t kMaxLinks = 4096;
 /// Rays per lumel in all solutions for an estimated error of 5 %: 24 in Cornell's box, 34 in
 /// Sponza, 74 in the town of scenes/town.py.
 constexpr double kLikelyRays = 64.0;
@@ -67,16 +67,6 @@ constexpr double kBrightRoom = 0.95;
 constexpr double kDark = 1.0 / 3.0;
 /// Minimum brightness in ray allocation, relative to the mean.
 constexpr double kDarkest = 1e-2;
-/// Random streams: shared directions, sub-lumels, direct light, and links of the solutions.
-constexpr std::uint32_t kSharedStream = 0, kPartStream = 1, kDirectStream = 2, kLinkStream = 3;
-
-std::vector<char> buried(const Lumels& lumels)
-{
-    std::vector<char> result(lumels.lumels.size());
-    std::transform(lumels.lumels.begin(), lumels.lumels.end(), result.begin(),
-                   [](const Lumel& lumel) { return (lumel.flags & kLumelBuried) != 0; });
-    return result;
-}
 
 /// The result of `make`; null, with a debug message, if the device does not support it.
 template <class Make>
@@ -112,16 +102,16 @@ std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene&
 }
 
 /// Adds the elapsed time to a stage [ms].
-class Clock {
+class Stopwatch {
 public:
-    explicit Clock(double& sum) : sum_(sum) {}
-    ~Clock()
+    explicit Stopwatch(double& sum) : sum_(sum) {}
+    ~Stopwatch()
     {
         sum_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
                     .count();
     }
-    Clock(const Clock&) = delete;
-    Clock& operator=(const Clock&) = delete;
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
 
 private:
     double& sum_;
@@ -194,13 +184,13 @@ void LinkRadiosity::step()
 {
     switch (stage_) {
     case Stage::begin: {
-        const Clock clock(times_["sub-lumels"]);
+        const Stopwatch clock(times_["sub-lumels"]);
         cut();
         stage_ = Stage::direct;
         break;
     }
     case Stage::direct: {
-        const Clock clock(times_["direct light"]);
+        const Stopwatch clock(times_["direct light"]);
         if (direct_->step())
             break;
         if (state_.shots == 0) {
@@ -212,14 +202,14 @@ void LinkRadiosity::step()
         break;
     }
     case Stage::links: {
-        const Clock clock(times_["links"]);
+        const Stopwatch clock(times_["links"]);
         trace();
         if (traced_ == tracer_->blocks())
             stage_ = Stage::solve;
         break;
     }
     case Stage::solve: {
-        const Clock clock(times_["sweeps"]);
+        const Stopwatch clock(times_["sweeps"]);
         end_round();
         break;
     }
@@ -285,7 +275,7 @@ double LinkRadiosity::begun() const
 
 void LinkRadiosity::cut()
 {
-    parts_.emplace(world_, cells_, place_.rays, buried(lumels_),
+    parts_.emplace(world_, cells_, place_.rays, lumels_,
                    PathSamples::hash(options_.seed, kPartStream));
     direct_.emplace(place_, sources_, starts_, order_,
                     PathSamples::hash(options_.seed, kDirectStream));
@@ -352,14 +342,14 @@ double LinkRadiosity::more_rays() const
         more = std::clamp(kAdaptiveGain * so_far * (ratio - 1.0), kMinMore * so_far,
                           kMaxMore * so_far);
     }
-    return std::min(more, double(kMaxRays));
+    return std::min(more, double(kMaxLinks));
 }
 
 /// Further rays per lumel and solution that fit in memory.
 double LinkRadiosity::rays_that_fit() const
 {
     if (most_bytes_ == 0)
-        return kMaxRays;
+        return kMaxLinks;
     double taken = 0.0;
     for (const std::optional<LinkSet>& gathered : gathered_)
         taken += double(gathered->bytes());
@@ -405,7 +395,7 @@ void LinkRadiosity::share_out_rays()
         return;
     for (std::size_t i = 0; i < deviation.size(); ++i) {
         const double share = kEvenShare + (1.0 - kEvenShare) * deviation[i] / mean;
-        rays_[i] = std::uint16_t(std::clamp(std::lround(mean_rays_ * share), 0l, long(kMaxRays)));
+        rays_[i] = std::uint16_t(std::clamp(std::lround(mean_rays_ * share), 0l, long(kMaxLinks)));
     }
 }
 

@@ -18,17 +18,17 @@ constexpr int kGroupCells = 4;
 /// Sweeps before groups are made.
 constexpr int kPlainSweeps = 10;
 /// Convergence threshold: RMS residual relative to each sub-lumel's own light. Sub-lumels darker
-/// than kDarkest × the mean count as that bright.
-constexpr double kStill = 1e-3, kDarkest = 1e-4;
-constexpr int kMaxSweeps = 2000;
+/// than kDarkestCounted × the mean count as that bright.
+constexpr double kStill = 1e-3, kDarkestCounted = 1e-4;
+constexpr int kSweepLimit = 2000;
 /// Maximum factor of a group's correction.
 constexpr double kMaxFactor = 64.0;
 /// Replaces the area of an empty group [m²].
 constexpr double kMinArea = 1e-30;
 /// Blocks per task.
-constexpr std::size_t kGrain = 4;
+constexpr std::size_t kBlocksPerTask = 4;
 /// Minimum assumed convergence: changes shrink at least by this factor.
-constexpr double kSlowest = 1.0 - 1e-6;
+constexpr double kSlowestSweep = 1.0 - 1e-6;
 /// A pivot below this means that all light of a group returns to it.
 constexpr double kSingular = 1e-7;
 
@@ -272,8 +272,8 @@ void LinkSolver::solve(const LinkSet& gathered, std::vector<glm::vec3>& received
     std::optional<Groups> groups;
     std::vector<Change> changes(blocks);
     double before = 0.0, floor = 0.0;
-    for (int sweep = 1; sweep <= kMaxSweeps; ++sweep) {
-        parallel_for(blocks, kGrain, [&](std::size_t first, std::size_t last) {
+    for (int sweep = 1; sweep <= kSweepLimit; ++sweep) {
+        parallel_for(blocks, kBlocksPerTask, [&](std::size_t first, std::size_t last) {
             for (std::size_t b = first; b < last; ++b)
                 changes[b] = sweep_block(gathered, b, floor, sent, next, received);
         });
@@ -284,7 +284,7 @@ void LinkSolver::solve(const LinkSet& gathered, std::vector<glm::vec3>& received
         }
         const double size = all.count > 0 ? std::sqrt(all.squares / double(all.count)) : 0.0;
         // Changes that shrink by a factor q leave q / (1 - q) of the last as residual.
-        const double factor = std::min(before > 0.0 ? size / before : kSlowest, kSlowest);
+        const double factor = std::min(before > 0.0 ? size / before : kSlowestSweep, kSlowestSweep);
         const double to_come =
             groups ? size + groups->correct(sent, next) : size * factor / (1.0 - factor);
         sent.swap(next);
@@ -292,7 +292,7 @@ void LinkSolver::solve(const LinkSet& gathered, std::vector<glm::vec3>& received
         if (size == 0.0 || (sweep > 1 && to_come < kStill))
             return;
         if (sweep == 1)
-            floor = kDarkest * mean_of(sent);
+            floor = kDarkestCounted * mean_of(sent);
         if (sweep == kPlainSweeps)
             groups.emplace(*this, gathered);
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 
@@ -10,12 +9,12 @@
 
 #include "base/core/frame.h"
 #include "base/core/parallel.h"
+#include "base/core/pi.h"
 #include "base/core/sphere.h"
 
 namespace lumel {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kFar = std::numeric_limits<float>::max();
 
 /// A hit closer than this many sides of the larger lumel is reflected again, with shadow rays at
@@ -31,10 +30,10 @@ constexpr float kMayBeHidden = 1.0f;
 /// Maximum number of such reflections.
 constexpr int kMaxReflections = 8;
 /// Height of visibility rays to cells above the surface, in sides of the lumel.
-constexpr float kLift = 0.05f;
+constexpr float kAboveHit = 0.05f;
 
 /// Dimension pairs of a ray's random numbers; each reflection uses kPerReflection more.
-constexpr std::uint32_t kStartPair = 0, kDirectionPair = 1, kPassPair = 2, kFirstReflection = 3,
+constexpr std::uint32_t kOriginPair = 0, kDirectionPair = 1, kPassPair = 2, kFirstReflection = 3,
                         kPerReflection = 2;
 
 }  // namespace
@@ -150,7 +149,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
     }
     for (std::uint32_t k = 0; k < rays; ++k) {
         const PathSamples samples(own, k);
-        const RayOrigin start = starts_.start(i, samples.stratified(kStartPair));
+        const RayOrigin start = starts_.start(i, samples.stratified(kOriginPair));
         std::uint32_t along = 0;
         glm::vec3 direction;
         if (shared) {
@@ -298,7 +297,7 @@ std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, std::uint32_t s
             arrival.cell = c;
         }
     }
-    const float ray_offset = std::max(kLift * world_[j].size, ray_offset_);
+    const float ray_offset = std::max(kAboveHit * world_[j].size, ray_offset_);
     const LumelPoint& point = points.point[arrival.cell];
     return ray_between(arrival.position + ray_offset * world_[j].normal,
                        point.position + ray_offset * point.normal, 0.0f, seed);

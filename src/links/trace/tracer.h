@@ -16,6 +16,10 @@
 
 namespace lumel {
 
+/// Random streams: shared directions, sub-lumels, direct light, and links of the solutions.
+inline constexpr std::uint32_t kSharedStream = 0, kPartStream = 1, kDirectStream = 2,
+                               kLinkStream = 3;
+
 /// A link of weight < 1: the ray crossed glass or was reflected on the way.
 struct AttenuatedLink {
     std::uint32_t part;

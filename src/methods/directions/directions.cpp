@@ -44,7 +44,7 @@ namespace {
 
 constexpr std::uint32_t kChunk = 1024;
 /// Dimension pairs of a direction's random numbers.
-constexpr std::uint32_t kDirectionPair = 0, kOffsetPair = 1, kTurnPair = 2;
+constexpr std::uint32_t kSlabDirectionPair = 0, kSlabOffsetPair = 1, kTurnPair = 2;
 /// Maximum pixels of all maps of a batch, which limits their memory.
 constexpr std::uint64_t kMaxPixels = 4u << 20;
 
@@ -118,13 +118,13 @@ GlobalDirections::Chunk GlobalDirections::make_chunk(std::uint32_t half, std::ui
     const std::uint32_t stream = PathSamples::hash(options_.seed, half);
     for (std::uint32_t i = first; i < first + kChunk; ++i) {
         const PathSamples samples(stream, in_turn ? i / kChannels : i);
-        const glm::vec3 way = on_sphere(samples.stratified(kDirectionPair));
+        const glm::vec3 way = on_sphere(samples.stratified(kSlabDirectionPair));
         const glm::vec3 toward(way.x, way.z, way.y);  // strata go from the zenith down
         const float turn = 2.0f * std::numbers::pi_v<float> * samples.random(kTurnPair).x;
         views.push_back(fit_view(world_->low(), world_->high(), maps_.layout().side,
                                  {.toward = toward,
                                   .turn = turn,
-                                  .offset = samples.random(kOffsetPair),
+                                  .offset = samples.random(kSlabOffsetPair),
                                   .random = samples.bits(kTurnPair),
                                   .channel = in_turn ? 1 + i % kChannels : kAllChannels}));
         directions.push_back(

@@ -17,7 +17,7 @@ constexpr double kLikelyEnough = 0.999;
 /// Spread of the measured overdraw of a scene without any: 50,000 pixels give it within 0.5 %.
 constexpr double kSpread = 0.02;
 /// Maximum pixels of the maps of one direction (192 MiB).
-constexpr std::uint64_t kMaxPixels = 16u << 20;
+constexpr std::uint64_t kMaxSlabPixels = 16u << 20;
 
 gpu::Array<ParallelView> tried_views(const gpu::Device& device, const World& world,
                                      std::uint32_t seed)
@@ -50,7 +50,7 @@ std::uint32_t suitable_slabs(const gpu::Device& device, const World& world, std:
     gpu::Pacer pacer(device);
     const auto fits = [&](std::uint32_t slabs) {
         return slabs <= kMaxTriedSlabs &&
-               std::uint64_t(side) * side * maps_of_slabs(slabs) <= kMaxPixels;
+               std::uint64_t(side) * side * maps_of_slabs(slabs) <= kMaxSlabPixels;
     };
     for (std::uint32_t slabs = 1;; slabs *= 2) {
         if (!fits(2 * slabs))

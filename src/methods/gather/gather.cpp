@@ -47,7 +47,7 @@ constexpr float kLift = 2e-6f;
 /// Near plane, relative to the ray offset: excludes no geometry in front of an eye.
 constexpr float kNearPart = 1e-3f;
 /// Maximum pixels of all hemicubes of a batch: 320 MiB.
-constexpr std::uint64_t kMaxPixels = 4u << 20;
+constexpr std::uint64_t kMaxEyePixels = 4u << 20;
 /// Light has converged once its relative residual is below this, or below this part of the target
 /// error.
 constexpr double kSettled = 1e-3, kSettledPart = 0.25;
@@ -63,7 +63,7 @@ std::uint32_t wanted_hemicubes(const GatherOptions& options, std::uint32_t chann
     const Tiles tile = hemicube_tiles(std::uint32_t(options.hemicube), 1);
     const std::uint64_t pixels =
         std::max<std::uint64_t>(std::uint64_t(tile.width) * tile.height, 1);
-    const std::uint64_t fit = std::max<std::uint64_t>(kMaxPixels / pixels, channels);
+    const std::uint64_t fit = std::max<std::uint64_t>(kMaxEyePixels / pixels, channels);
     const auto asked = std::uint32_t(options.batch);
     return std::uint32_t(std::min<std::uint64_t>(fit, std::max(asked, channels)));
 }

@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::size_t kParticlesPerTask = 512;
 /// Maximum lobes per particle: facing mirrors would reflect it forever.
-constexpr std::uint32_t kMaxLobes = 256;
+constexpr std::uint32_t kMaxTriedLobes = 256;
 /// Lobes with stratified directions; later ones contribute too little.
 constexpr std::uint32_t kStratifiedLobes = 1;
 
@@ -170,7 +170,7 @@ void LobeParticles::follow(const Start& start, std::vector<Landing>& landings) c
     PathHit at;
     if (!arrive(start, at))
         return;
-    for (std::uint32_t lobe = 0; lobe < kMaxLobes; ++lobe) {
+    for (std::uint32_t lobe = 0; lobe < kMaxTriedLobes; ++lobe) {
         const std::uint32_t pair = kFirstLobePair + kPairsPerLobe * lobe;
         const Gloss& gloss = lumels_->gloss[at.lumel];
         const float cos_in = -glm::dot(at.normal, at.direction);

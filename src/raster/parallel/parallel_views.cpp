@@ -13,7 +13,7 @@ constexpr float kBorder = 1.5f;
 /// Fraction of the depth range that is free at both ends.
 constexpr float kDepthBorder = 0.01f;
 
-constexpr std::uint32_t kMinSide = 128, kMaxSide = 2048;
+constexpr std::uint32_t kMinMapSide = 128, kMaxMapSide = 2048;
 
 /// Extent of a box along an axis.
 struct Reach {
@@ -53,12 +53,12 @@ std::uint32_t parallel_side(const Lumels& lumels, float diagonal, float pixels, 
         if (!(lumel.flags & kLumelBuried) && lumel.area > 0.0f)
             sizes.push_back(std::sqrt(lumel.area));
     if (sizes.empty())
-        return kMinSide;
+        return kMinMapSide;
     const auto median = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
     std::nth_element(sizes.begin(), median, sizes.end());
     const float across = pixels * diagonal / std::max(*median, 1e-30f);
-    const std::uint32_t largest = std::min(kMaxSide, most);
-    return std::clamp(std::uint32_t(std::min(across, float(largest))), kMinSide, largest);
+    const std::uint32_t largest = std::min(kMaxMapSide, most);
+    return std::clamp(std::uint32_t(std::min(across, float(largest))), kMinMapSide, largest);
 }
 
 ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <numbers>
 #include <span>
 #include <vector>
 
 #include "base/core/frame.h"
 #include "base/core/lattice.h"
+#include "base/core/pi.h"
 #include "base/core/sphere.h"
 #include "raster/shadow_maps/lamps.receive.comp.h"
 #include "raster/shadow_maps/lamps.shared.h"
@@ -16,7 +16,6 @@
 namespace lumel {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 /// Distance of the random keys of two lamps.
 constexpr std::uint32_t kLampKeys = 977;
 

@@ -13,16 +13,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/core/frame.h"
 #include "base/core/lattice.h"
+#include "base/core/pi.h"
 #include "base/core/sphere.h"
 
 namespace lumel {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 /// Keys of the samples, see lattice_point.
 constexpr std::uint32_t kBrightKey = 1, kEvenKey = 2, kDiscKey = 3, kTurnKey = 4, kOffsetKey = 5;
 /// Keys of one seed.

@@ -6,7 +6,7 @@ namespace lumel {
 namespace {
 
 /// Data of this many rays fit in the caches of a core.
-constexpr std::size_t kBatch = 256;
+constexpr std::size_t kHostBatch = 256;
 
 class HostCaster final : public RayCaster {
 public:
@@ -28,7 +28,7 @@ public:
             transmittance[i] = rays_.transmittance(rays[i]);
     }
 
-    std::size_t batch() const override { return kBatch; }
+    std::size_t batch() const override { return kHostBatch; }
     const char* name() const override { return "host"; }
 
 private:

@@ -14,6 +14,7 @@
 #include "base/core/parallel.h"
 #include "gpu/commands.h"
 #include "rays/cast/device_triangles.h"
+#include "rays/cast/ray_caster.h"
 #include "rays/device/bundle_caster.cast.comp.h"
 #include "rays/device/bundle_caster.raster.h"
 
@@ -41,9 +42,6 @@ constexpr float kBorder = 1.0f;
 constexpr std::uint32_t kMaxBoxes = 1u << 16;
 /// Indices of a box around a triangle: two triangles.
 constexpr std::uint32_t kIndices = 6;
-/// Factor from a hit distance to just behind it, despite rounding, so that a ray does not hit the
-/// same surface again.
-constexpr float kBehind = 1.0f + 8.0f * std::numeric_limits<float>::epsilon();
 /// Hits per task.
 constexpr std::size_t kGrain = 1024;
 

@@ -14,18 +14,16 @@
 #include "gpu/commands.h"
 #include "gpu/triangle_tree.h"
 #include "rays/cast/device_triangles.h"
+#include "rays/cast/ray_caster.h"
 #include "rays/device/query_caster.cast.comp.h"
 
 namespace lumel {
 namespace {
 
 /// Enough work to hide the start-up cost of a dispatch.
-constexpr std::size_t kBatch = std::size_t(1) << 15;
+constexpr std::size_t kQueryBatch = std::size_t(1) << 15;
 /// Maximum rays per dispatch.
-constexpr std::size_t kMaxRays = 4 * kBatch;
-/// Factor from a hit distance to just behind it, despite rounding, so that a ray does not hit the
-/// same surface again.
-constexpr float kBehind = 1.0f + 8.0f * std::numeric_limits<float>::epsilon();
+constexpr std::size_t kMaxQueries = 4 * kQueryBatch;
 constexpr float kFar = std::numeric_limits<float>::max();
 
 gpu::TriangleTree make_tree(const gpu::Device& device, const RayScene& rays,
@@ -67,17 +65,17 @@ public:
           tree_(make_tree(device, rays, triangles_)),
           cast_(device),
           commands_(device, gpu::Timing::off),
-          sent_(device, kMaxRays, gpu::Buffer::Place::host, "rays to cast"),
-          asked_(device, kMaxRays, "rays being cast"),
-          found_(device, kMaxRays, "hits of rays"),
-          returned_(device, kMaxRays, gpu::Buffer::Place::host, "hits that return")
+          sent_(device, kMaxQueries, gpu::Buffer::Place::host, "rays to cast"),
+          asked_(device, kMaxQueries, "rays being cast"),
+          found_(device, kMaxQueries, "hits of rays"),
+          returned_(device, kMaxQueries, gpu::Buffer::Place::host, "hits that return")
     {
     }
 
     void closest(std::span<const RaySpan> rays, std::span<RayHit> hits) const override;
     void transmittance(std::span<const RaySpan> rays,
                        std::span<glm::vec3> transmittance) const override;
-    std::size_t batch() const override { return kBatch; }
+    std::size_t batch() const override { return kQueryBatch; }
     const char* name() const override { return "query"; }
 
 private:
@@ -170,8 +168,8 @@ void QueryCaster::transmittance(std::span<const RaySpan> rays,
 std::vector<CastHit> QueryCaster::cast(std::span<const CastRay> rays, std::uint32_t wanted) const
 {
     std::vector<CastHit> hits(rays.size());
-    for (std::size_t first = 0; first < rays.size(); first += kMaxRays) {
-        const std::size_t count = std::min(kMaxRays, rays.size() - first);
+    for (std::size_t first = 0; first < rays.size(); first += kMaxQueries) {
+        const std::size_t count = std::min(kMaxQueries, rays.size() - first);
         cast_at_once(rays.subspan(first, count), wanted, std::span(hits).subspan(first, count));
     }
     return hits;

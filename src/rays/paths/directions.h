@@ -2,9 +2,10 @@
 // Maps from the unit square to directions, and their frames.
 
 #include <cmath>
-#include <numbers>
 
 #include <glm/glm.hpp>
+
+#include "base/core/pi.h"
 
 namespace lumel {
 
@@ -22,7 +23,6 @@ inline glm::vec3 turn_to(const glm::vec3& axis, float x, float y, float z)
 /// Concentric map from the unit square to the unit disc: preserves areas and keeps strata compact.
 inline glm::vec2 square_to_disc(const glm::vec2& at)
 {
-    constexpr float kPi = std::numbers::pi_v<float>;
     const glm::vec2 offset = 2.0f * at - 1.0f;
     if (std::abs(offset.x) > std::abs(offset.y)) {
         const float angle = kPi / 4.0f * (offset.y / offset.x);

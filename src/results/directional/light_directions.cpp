@@ -9,9 +9,9 @@
 #include "results/directional/light_directions.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "base/core/parallel.h"
+#include "base/core/pi.h"
 #include "lights/ray_allocation.h"
 #include "lights/shadow_rays.h"
 #include "rays/paths/directions.h"
@@ -20,14 +20,13 @@
 namespace lumel {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 /// Approximate rays per lumel: to lamps, suns and bright parts of the sky together; to the rest of
 /// the sky.
 constexpr std::uint32_t kLampRays = 32, kSkyRays = 64;
 /// Lumels per progress report, and minimum per task.
 constexpr std::size_t kLumelsPerStep = 4096, kGrain = 16;
 /// Dimension pairs of a ray's random numbers, and streams of sources.
-constexpr std::uint32_t kStartPair = 0, kSourcePair = 1, kSeedPair = 2, kChoicePair = 3;
+constexpr std::uint32_t kReceiverPair = 0, kLampPair = 1, kRaySeedPair = 2, kLampChoicePair = 3;
 constexpr std::uint32_t kSkyStream = 0, kRestStream = 1, kFirstSourceStream = 2;
 
 using Coefficients = std::array<glm::vec3, kMaxCoefficients>;
@@ -77,8 +76,8 @@ private:
     {
         for (std::uint32_t k = 0; k < kSkyRays; ++k) {
             const PathSamples samples(stream, k);
-            const RayOrigin start = starts_.start(i, samples.stratified(kStartPair));
-            const glm::vec2 at = samples.stratified(kSourcePair);
+            const RayOrigin start = starts_.start(i, samples.stratified(kReceiverPair));
+            const glm::vec2 at = samples.stratified(kLampPair);
             const float up = at.x, across = std::sqrt(1.0f - up * up), angle = 2.0f * kPi * at.y;
             const glm::vec3 direction =
                 turn_to(normals_[i], across * std::cos(angle), across * std::sin(angle), up);
@@ -86,7 +85,7 @@ private:
             if (sky == glm::vec3(0.0f) || !(glm::dot(start.geometric, direction) > 0.0f))
                 continue;
             const glm::vec3 transmittance =
-                rays_.transmittance_out(start.position, direction, samples.bits(kSeedPair));
+                rays_.transmittance_out(start.position, direction, samples.bits(kRaySeedPair));
             add(i, direction, transmittance * sky * (2.0f * kPi / float(kSkyRays)), sums);
         }
     }
@@ -105,7 +104,7 @@ private:
         const std::uint32_t rest = PathSamples::hash(stream, kRestStream);
         for (std::uint32_t k = 0; k < shares.rest_rays; ++k) {
             const PathSamples samples(rest, k);
-            const auto [source, chance] = shares.choose(samples.stratified(kChoicePair).x);
+            const auto [source, chance] = shares.choose(samples.stratified(kLampChoicePair).x);
             if (chance > 0.0f)
                 add_sample(i, source, samples, 1.0f / (chance * float(shares.rest_rays)), sums);
         }
@@ -114,13 +113,13 @@ private:
     void add_sample(std::size_t i, std::size_t source, const PathSamples& samples, float weight,
                     Coefficients& sums) const
     {
-        const RayOrigin start = starts_.start(i, samples.stratified(kStartPair));
-        const SourceSample sample = sources_.sample(source, start, samples.stratified(kSourcePair));
+        const RayOrigin start = starts_.start(i, samples.stratified(kReceiverPair));
+        const SourceSample sample = sources_.sample(source, start, samples.stratified(kLampPair));
         const float cosine = start.cosine(sample.direction);
         if (!(cosine > 0.0f) || sample.irradiance == glm::vec3(0.0f))
             return;
         const glm::vec3 transmittance = rays_.transmittance(
-            ray_towards(sample, start, rays_.ray_offset(), samples.bits(kSeedPair)));
+            ray_towards(sample, start, rays_.ray_offset(), samples.bits(kRaySeedPair)));
         add(i, sample.direction, transmittance * sample.irradiance * (weight / cosine), sums);
     }
 

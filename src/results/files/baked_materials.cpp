@@ -12,7 +12,7 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kLightmap = "MOZ_lightmap";
+constexpr const char* kLightmapExtension = "MOZ_lightmap";
 constexpr const char* kOwnExtras = "lumel";
 constexpr const char* kTextureTransform = "KHR_texture_transform";
 constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
@@ -63,7 +63,7 @@ void drop_told(Json& extras)
 void drop_lightmap(Json& material)
 {
     if (material.contains("extensions"))
-        material["extensions"].erase(kLightmap);
+        material["extensions"].erase(kLightmapExtension);
     if (material.contains("extras") && material["extras"].is_object())
         drop_told(material["extras"]);
 }
@@ -82,7 +82,7 @@ std::set<std::size_t> lightmap_textures(const Json& json)
 {
     std::set<std::size_t> textures;
     for_objects(json, [&](const Json& object) {
-        if (const auto found = object.find(kLightmap);
+        if (const auto found = object.find(kLightmapExtension);
             found != object.end() && found->is_object() && found->contains("index"))
             textures.insert(index_of((*found)["index"]));
     });
@@ -297,7 +297,7 @@ void bind_lightmap(Json& json, const std::vector<std::size_t>& materials, std::s
                    float intensity)
 {
     for (const std::size_t material : materials)
-        json["materials"][material]["extensions"][kLightmap] = {
+        json["materials"][material]["extensions"][kLightmapExtension] = {
             {"index", texture}, {"texCoord", 1}, {"intensity", intensity}};
 }
 

@@ -22,7 +22,7 @@ constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN"
 constexpr std::size_t kHeaderSize = 12, kChunkHeaderSize = 8;
-constexpr std::size_t kAlignment = 4;  // alignment of chunks and of views, for floats
+constexpr std::size_t kChunkAlignment = 4;  // alignment of chunks and of views, for floats
 constexpr int kLinear = 9729, kClampToEdge = 33071;
 
 // Placeholders for released elements without a successor; nothing refers to them.
@@ -108,7 +108,7 @@ void append_word(std::vector<std::uint8_t>& out, std::size_t word)
 
 void pad(std::vector<std::uint8_t>& out, std::uint8_t filler)
 {
-    out.resize((out.size() + kAlignment - 1) / kAlignment * kAlignment, filler);
+    out.resize((out.size() + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment, filler);
 }
 
 std::size_t put(Json& array, std::set<std::size_t>& free, Json value)
@@ -320,7 +320,7 @@ std::vector<std::uint8_t> GlbBuilder::finish()
     json["asset"]["generator"] = "Lumel";
     json["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
     std::string text = json.dump();
-    text.resize((text.size() + kAlignment - 1) / kAlignment * kAlignment, ' ');
+    text.resize((text.size() + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment, ' ');
 
     const std::size_t size =
         kHeaderSize + kChunkHeaderSize + text.size() + kChunkHeaderSize + binary_.size();

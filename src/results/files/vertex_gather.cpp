@@ -9,12 +9,12 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kAlignment = 4;            // per vertex
+constexpr std::size_t kVertexAlignment = 4;      // per vertex
 constexpr std::size_t kShortIndexLimit = 65535;  // 65535 itself means restart
 
 std::size_t stride_of(const AccessorData& data)
 {
-    return (data.element_size + kAlignment - 1) / kAlignment * kAlignment;
+    return (data.element_size + kVertexAlignment - 1) / kVertexAlignment * kVertexAlignment;
 }
 
 template <class T>

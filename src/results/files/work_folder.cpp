@@ -29,7 +29,7 @@ constexpr const char *kList = ".committed", *kUnfinishedList = ".committing";
 /// In the work folder of a replaced target: the names of its results.
 constexpr const char* kReplaced = ".replaced";
 /// Maximum number of other files that are linked into a new target.
-constexpr std::size_t kMaxLinks = 1000;
+constexpr std::size_t kMaxSymlinks = 1000;
 /// Retries while another process that cleans up holds the lock.
 constexpr int kTries = 20;
 constexpr std::chrono::milliseconds kBetweenTries(50);
@@ -297,7 +297,7 @@ std::optional<std::vector<fs::path>> others_in(const fs::path& target,
         if (name.string().find('\n') != std::string::npos)
             return {};  // the list has one name per line
         others.push_back(name);
-        if (others.size() > kMaxLinks)
+        if (others.size() > kMaxSymlinks)
             return {};
     }
     return others;

@@ -1,15 +1,13 @@
 #include "results/measure/arriving_light.h"
 
-#include <numbers>
-
 #include "atlas/lumels/sides.h"
 #include "base/core/luminance.h"
+#include "base/core/pi.h"
 #include "lights/shadow_rays.h"
 
 namespace lumel {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 /// A back with less light than this fraction of its front's is unlit.
 constexpr double kDark = 0.01;
 

@@ -12,12 +12,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 #include "atlas/near/hit_lumels.h"
 #include "atlas/near/world_lumels.h"
 #include "base/core/frame.h"
 #include "base/core/luminance.h"
+#include "base/core/pi.h"
 #include "lights/lamps.h"
 #include "rays/paths/directions.h"
 #include "rays/paths/samples.h"
@@ -25,12 +25,11 @@
 namespace lumel {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kFar = std::numeric_limits<float>::max();
 /// Samples of a lamp, over the lumel and the lamp's disc.
 constexpr std::uint32_t kLampPoints = 256;
 /// Dimension pairs of a ray's random numbers.
-constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kSeedPair = 2;
+constexpr std::uint32_t kPointPair = 0, kSenderDirectionPair = 1, kSenderSeedPair = 2;
 
 /// Instance, cell, side of a cube.
 using Place = std::array<std::int64_t, 5>;
@@ -120,12 +119,13 @@ private:
     void follow(const PathSamples& samples)
     {
         const LumelPoint point = start(samples);
-        const glm::vec2 disc = square_to_disc(samples.stratified(kDirectionPair));
+        const glm::vec2 disc = square_to_disc(samples.stratified(kSenderDirectionPair));
         const float up = std::sqrt(std::max(1.0f - glm::dot(disc, disc), 0.0f));
         const glm::vec3 direction = turn_to(point.normal, disc.x, disc.y, up);
         const float share = 1.0f / float(options_.rays);
         RayHit hit;
-        if (!rays_.closest(point.position, direction, 0.0f, kFar, samples.bits(kSeedPair), hit)) {
+        if (!rays_.closest(point.position, direction, 0.0f, kFar, samples.bits(kSenderSeedPair),
+                           hit)) {
             sky_ += share * kPi * hit.tint * sky_radiance(scene_.sky, direction);
             return;
         }
@@ -176,12 +176,12 @@ private:
             const PathSamples samples(options_.seed, k);
             const LumelPoint point = start(samples);
             const LampSample toward = lamps.sample(
-                lamp, point.position, square_to_disc(samples.stratified(kDirectionPair)));
+                lamp, point.position, square_to_disc(samples.stratified(kSenderDirectionPair)));
             const float cosine = glm::dot(point.normal, toward.direction);
             if (!(cosine > 0.0f))
                 continue;
             const glm::vec3 passes =
-                transmittance(rays_, point.position, toward, 0.0f, samples.bits(kSeedPair));
+                transmittance(rays_, point.position, toward, 0.0f, samples.bits(kSenderSeedPair));
             sum += cosine * passes * toward.illuminance;
         }
         return sum / float(kLampPoints);

@@ -13,15 +13,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/core/luminance.h"
+#include "base/core/pi.h"
 #include "results/measure/ray_sets.h"
 
 namespace lumel {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 /// Rays are doubled until the noise is below this fraction of band 0, or up to kMaxTimes × as many.
 constexpr double kEnough = 0.005;
 constexpr std::uint32_t kMaxTimes = 64;

@@ -15,9 +15,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/core/parallel.h"
+#include "base/core/pi.h"
 #include "lights/lamp_choice.h"
 #include "methods/glossy/phong.h"
 #include "rays/paths/directions.h"
@@ -26,7 +26,6 @@
 namespace lumel {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 /// Maximum lobes per ray: facing mirrors would reflect it forever.
 constexpr std::uint32_t kMaxLobes = 16;
 /// Throughput below which a ray takes part in Russian roulette: reflectance of glazed surfaces. A
@@ -35,7 +34,7 @@ constexpr float kRouletteBelow = 0.04f;
 /// Dimension pairs of a ray's random numbers: direction, roulette, target point, lamp, and point on
 /// the lamp.
 constexpr std::uint32_t kPairsPerLobe = 6;
-constexpr std::size_t kPointsPerTask = 64;
+constexpr std::size_t kLobePointsPerTask = 64;
 /// Points between progress reports.
 constexpr std::size_t kPointsPerStep = 65536;
 
@@ -231,7 +230,7 @@ std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, cons
             stopped |= progress && !progress((taken + share) / options.rays);
             return true;
         };
-        parallel_steps(points.size(), kPointsPerStep, kPointsPerTask, follow, report);
+        parallel_steps(points.size(), kPointsPerStep, kLobePointsPerTask, follow, report);
     }
     for (glm::vec3& sum : radiance)
         sum /= float(std::max(taken, 1u));

@@ -53,6 +53,19 @@ std::uint32_t level_count(int width, int height)
     return levels;
 }
 
+bool has_texture(const Material& material)
+{
+    return material.base_color_texture.texture >= 0 || material.emissive_texture.texture >= 0;
+}
+
+bool are_alike(const PreviewParams& a, const PreviewParams& b)
+{
+    return a.camera == b.camera && a.base_color == b.base_color && a.emitted == b.emitted &&
+           a.cutoff == b.cutoff && a.back == b.back && a.shows == b.shows;
+}
+
+}  // namespace
+
 /// The scene's textures on the device; a white texel replaces missing ones.
 class TextureSet {
 public:
@@ -97,19 +110,6 @@ private:
     std::vector<gpu::Target> targets_;
     std::map<std::pair<Wrap, Wrap>, gpu::Sampler> samplers_;
 };
-
-bool has_texture(const Material& material)
-{
-    return material.base_color_texture.texture >= 0 || material.emissive_texture.texture >= 0;
-}
-
-bool are_alike(const PreviewParams& a, const PreviewParams& b)
-{
-    return a.camera == b.camera && a.base_color == b.base_color && a.emitted == b.emitted &&
-           a.cutoff == b.cutoff && a.back == b.back && a.shows == b.shows;
-}
-
-}  // namespace
 
 glm::ivec2 preview_size(const gpu::Device& device, const View& view, int width)
 {

@@ -17,7 +17,7 @@ constexpr Limits kSides{0.0, 65536.0};  // [texels]
 constexpr Limits kPages{1.0, kMaxPages};
 constexpr Limits kDensities{0.0, 1e9};  // [1/m]
 constexpr Limits kCounts{0.0, 1e15};
-constexpr int kMaxLinks = 256;  // stored rays per lumel
+constexpr int kMaxStoredLinks = 256;  // stored rays per lumel
 constexpr Limits kErrors{0.0, std::numeric_limits<double>::max()};
 
 template <class Options, class Visit>
@@ -69,7 +69,7 @@ void write_kept_links(const BakeRecord& record, Json& settings)
 void read_kept_links(const JsonView& settings, BakeRecord& record)
 {
     if (const auto rays = settings.find("keep-links"))
-        record.keep_links = std::uint32_t(rays->integer(1, kMaxLinks));
+        record.keep_links = std::uint32_t(rays->integer(1, kMaxStoredLinks));
 }
 
 template <class Record, class Visit>

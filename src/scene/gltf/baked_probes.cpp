@@ -5,11 +5,12 @@
 #include <cstdint>
 
 #include "base/json/json_view.h"
+#include "scene/gltf/extras.h"
 
 namespace lumel {
 namespace {
 
-constexpr const char *kExtras = "extras", *kOwn = "lumel", *kMark = "light_probes";
+constexpr const char *kOwn = "lumel", *kMark = "light_probes";
 constexpr const char *kNodes = "nodes", *kChildren = "children", *kScenes = "scenes";
 
 bool is_group(const Json& node)

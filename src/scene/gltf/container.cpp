@@ -22,7 +22,7 @@ std::uint32_t read_u32(const Bytes& bytes, std::size_t offset)
     return value;
 }
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
+[[noreturn]] void refuse_container(const std::string& path, const std::string& what)
 {
     throw Error(ErrorKind::input, path, what);
 }
@@ -31,16 +31,18 @@ std::uint32_t read_u32(const Bytes& bytes, std::size_t offset)
 std::size_t container_size(const std::string& path, const Bytes& bytes)
 {
     if (bytes.size() < kHeaderSize)
-        fail(path, "is cut short: the GLB header is not complete");
+        refuse_container(path, "is cut short: the GLB header is not complete");
     const std::uint32_t version = read_u32(bytes, 4);
     if (version != kVersion)
-        fail(path, "is GLB version " + std::to_string(version) + ", but only version 2 is read");
+        refuse_container(path, "is GLB version " + std::to_string(version) +
+                                   ", but only version 2 is read");
     const std::size_t length = read_u32(bytes, 8);
     if (length > bytes.size())
-        fail(path, "is cut short: its GLB header states " + std::to_string(length) +
-                       " bytes, but the file has " + std::to_string(bytes.size()));
+        refuse_container(path, "is cut short: its GLB header states " + std::to_string(length) +
+                                   " bytes, but the file has " + std::to_string(bytes.size()));
     if (length < kHeaderSize + kChunkHeaderSize)
-        fail(path, "has a GLB header with the impossible length " + std::to_string(length));
+        refuse_container(path,
+                         "has a GLB header with the impossible length " + std::to_string(length));
     return length;
 }
 
@@ -59,25 +61,26 @@ GlbChunks split_glb(const std::string& path, const Bytes& bytes)
     for (int chunk = 0; offset < end; ++chunk) {
         const std::string name = "GLB chunk " + std::to_string(chunk);
         if (end - offset < kChunkHeaderSize)
-            fail(path, "is cut short inside the header of " + name);
+            refuse_container(path, "is cut short inside the header of " + name);
         const std::size_t size = read_u32(bytes, offset);
         const std::uint32_t type = read_u32(bytes, offset + 4);
         offset += kChunkHeaderSize;
         if (size > end - offset)
-            fail(path, name + " has a stated length of " + std::to_string(size) +
-                           " bytes, but only " + std::to_string(end - offset) + " are there");
+            refuse_container(path, name + " has a stated length of " + std::to_string(size) +
+                                       " bytes, but only " + std::to_string(end - offset) +
+                                       " are there");
         if (size % 4 != 0)
-            fail(path, name + " has a length that is not a multiple of 4");
+            refuse_container(path, name + " has a length that is not a multiple of 4");
 
         if ((chunk == 0) != (type == kJsonChunk))
-            fail(path, chunk == 0 ? "its first GLB chunk is not JSON"
-                                  : "it has more than one JSON chunk");
+            refuse_container(path, chunk == 0 ? "its first GLB chunk is not JSON"
+                                              : "it has more than one JSON chunk");
         if (chunk == 0) {
             chunks.json_offset = offset;
             chunks.json_size = size;
         } else if (type == kBinaryChunk) {
             if (chunk != 1)
-                fail(path, "its BIN chunk is not the second one");
+                refuse_container(path, "its BIN chunk is not the second one");
             chunks.binary_offset = offset;
             chunks.binary_size = size;
         }

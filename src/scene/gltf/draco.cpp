@@ -19,14 +19,14 @@ constexpr std::size_t kAlignment = 4;  // alignment of vertices
 constexpr std::array<const char*, 4> kTypeNames = {"SCALAR", "VEC2", "VEC3", "VEC4"};
 
 /// Location of a primitive in the document.
-struct Place {
+struct DracoPlace {
     std::size_t mesh = 0;
     std::size_t primitive = 0;
 };
 
 /// An accessor of a primitive, and its new bufferView.
 struct Filled {
-    Place place;
+    DracoPlace place;
     std::string attribute;  ///< empty: the indices
     std::size_t view = 0;
     std::size_t count = 0;
@@ -89,7 +89,7 @@ public:
     {
         // JsonViews refer to locations in the JSON, so it changes only after all streams are
         // decoded.
-        std::map<std::size_t, std::vector<Place>> streams;
+        std::map<std::size_t, std::vector<DracoPlace>> streams;
         root_.each("meshes", [&](const JsonView& mesh, std::size_t m) {
             mesh.each("primitives", [&](const JsonView& primitive, std::size_t p) {
                 const auto extension = primitive.extension(kDraco);
@@ -110,12 +110,12 @@ public:
     }
 
 private:
-    JsonView primitive_at(const Place& place) const
+    JsonView primitive_at(const DracoPlace& place) const
     {
         return root_.get("meshes").at(place.mesh).get("primitives").at(place.primitive);
     }
 
-    void decode(std::size_t view, const std::vector<Place>& places)
+    void decode(std::size_t view, const std::vector<DracoPlace>& places)
     {
         const JsonView index = primitive_at(places[0]).extension(kDraco)->get("bufferView");
         const Bytes stream = buffer_view_bytes(document_, index);
@@ -126,7 +126,7 @@ private:
         std::memcpy(indices.data(), mesh.indices.data(), indices.size());
         stored_[view] = {std::move(indices), 0};
         std::map<std::uint32_t, std::size_t> views;  // view of each attribute id
-        for (const Place& place : places) {
+        for (const DracoPlace& place : places) {
             filled_.push_back({place, {}, view, mesh.indices.size()});
             const JsonView names = primitive_at(place).extension(kDraco)->get("attributes");
             for (const auto& [name, id] : names.as_object().json().items()) {
@@ -144,7 +144,7 @@ private:
     }
 
     /// The attribute `id` of the stream; checks that it matches the accessor.
-    const DracoAttribute& attribute_of(const Place& place, const std::string& name,
+    const DracoAttribute& attribute_of(const DracoPlace& place, const std::string& name,
                                        const JsonView& id, const DracoMesh& mesh) const
     {
         const std::int64_t wanted = id.integer(0, UINT32_MAX);

@@ -5,7 +5,6 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kExtras = "extras";
 constexpr double kMin = 1e-6, kMax = 1e9;  // [texels/m]
 
 /// An object member, or nullopt. Extras may have any type.

@@ -7,6 +7,9 @@
 
 namespace lumel {
 
+/// The member that holds what glTF does not define.
+inline constexpr const char* kExtras = "extras";
+
 /// Maximum pages of a lightmap.
 inline constexpr int kMaxPages = 256;
 

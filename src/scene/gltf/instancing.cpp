@@ -17,7 +17,7 @@ constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 /// A node takes some hundred bytes, and many nodes of a small file may use one such list.
 constexpr std::size_t kMaxInstances = std::size_t(1) << 20;
 /// Tolerance for unit quaternions, which may have 8 bits per component.
-constexpr double kUnitTolerance = 0.02;
+constexpr double kTurnTolerance = 0.02;
 
 /// A transform attribute of instances, and the node member it becomes.
 struct Channel {
@@ -26,7 +26,7 @@ struct Channel {
     const char* type;
     std::size_t components;
 };
-constexpr std::array<Channel, 3> kChannels = {{
+constexpr std::array<Channel, 3> kInstanceChannels = {{
     {"TRANSLATION", "translation", "VEC3", 3},
     {"ROTATION", "rotation", "VEC4", 4},
     {"SCALE", "scale", "VEC3", 3},
@@ -44,7 +44,7 @@ void normalise(const JsonView& view, std::vector<float>& numbers, bool floats)
     for (std::size_t i = 0; i < numbers.size(); i += 4) {
         const glm::dvec4 turn(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]);
         const double length = glm::length(turn);
-        if (!(std::abs(length - 1.0) <= kUnitTolerance))
+        if (!(std::abs(length - 1.0) <= kTurnTolerance))
             view.fail("is not a unit quaternion at instance " + std::to_string(i / 4));
         for (int c = 0; !floats && c < 4; ++c)
             numbers[i + std::size_t(c)] = float(turn[c] / length);
@@ -99,7 +99,7 @@ Crowd read_crowd(const GltfDocument& document, const JsonView& node, std::size_t
     const JsonView attributes = node.extension(kInstancing)->get("attributes");
     std::vector<Values> channels;
     std::size_t count = 0;
-    for (const Channel& channel : kChannels) {
+    for (const Channel& channel : kInstanceChannels) {
         const auto view = attributes.find(channel.attribute);
         if (!view)
             continue;

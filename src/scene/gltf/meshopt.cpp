@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::array<const char*, 2> kNames = {"EXT_meshopt_compression",
                                                "KHR_meshopt_compression"};
-constexpr std::int64_t kLargestStride = 256;
-constexpr std::int64_t kLargestCount = std::int64_t(1) << 40;
-constexpr std::int64_t kLargestSize = std::int64_t(1) << 50;
+constexpr std::int64_t kLargestCodedStride = 256;
+constexpr std::int64_t kLargestCodedCount = std::int64_t(1) << 40;
+constexpr std::int64_t kLargestCodedSize = std::int64_t(1) << 50;
 constexpr std::size_t kCornersOfTriangle = 3;
 /// Upper bounds of the compression: one byte per component of 64 vertices, per triangle and per
 /// index.
@@ -26,14 +26,14 @@ constexpr std::size_t kVerticesPerByte = 64;
 /// First byte of vertices in the newer bitstream of KHR_meshopt_compression.
 constexpr std::uint8_t kNewerVertices = 0xA1;
 
-enum class Mode { attributes, triangles, indices };
+enum class CodingMode { attributes, triangles, indices };
 enum class Filter { none, octahedral, quaternion, exponential };
 
 /// Parameters of an encoded bufferView.
 struct Coded {
     const std::uint8_t* bytes = nullptr;
     std::size_t size = 0;
-    Mode mode = Mode::attributes;
+    CodingMode mode = CodingMode::attributes;
     Filter filter = Filter::none;
     std::size_t stride = 0;
     std::size_t count = 0;
@@ -47,8 +47,9 @@ std::optional<JsonView> extension_of(const JsonView& view)
     return std::nullopt;
 }
 
-constexpr Named<Mode> kModes[] = {
-    {"ATTRIBUTES", Mode::attributes}, {"TRIANGLES", Mode::triangles}, {"INDICES", Mode::indices}};
+constexpr Named<CodingMode> kModes[] = {{"ATTRIBUTES", CodingMode::attributes},
+                                        {"TRIANGLES", CodingMode::triangles},
+                                        {"INDICES", CodingMode::indices}};
 
 Filter filter_of(const JsonView& extension)
 {
@@ -65,9 +66,9 @@ Filter filter_of(const JsonView& extension)
 }
 
 /// True for strides that the decoders and filters support.
-bool fits(Mode mode, Filter filter, std::size_t stride)
+bool fits(CodingMode mode, Filter filter, std::size_t stride)
 {
-    if (mode != Mode::attributes)
+    if (mode != CodingMode::attributes)
         return stride == 2 || stride == 4;
     switch (filter) {
     case Filter::octahedral:
@@ -84,10 +85,10 @@ bool fits(Mode mode, Filter filter, std::size_t stride)
 /// Throws if the encoded bytes are too few for the stated count.
 void check_claim(const JsonView& extension, const Coded& coded)
 {
-    const std::size_t most = coded.mode == Mode::attributes  ? coded.size * kVerticesPerByte
-                             : coded.mode == Mode::triangles ? coded.size * kCornersOfTriangle
-                                                             : coded.size;
-    const std::size_t components = coded.mode == Mode::attributes ? coded.stride : 1;
+    const std::size_t most = coded.mode == CodingMode::attributes  ? coded.size * kVerticesPerByte
+                             : coded.mode == CodingMode::triangles ? coded.size * kCornersOfTriangle
+                                                                   : coded.size;
+    const std::size_t components = coded.mode == CodingMode::attributes ? coded.stride : 1;
     if (coded.count > most / components)
         extension.get("count").fail("is " + std::to_string(coded.count) + ", more than its " +
                                     std::to_string(coded.size) + " bytes can hold");
@@ -100,8 +101,8 @@ std::pair<const std::uint8_t*, std::size_t> stretch_of(const GltfDocument& docum
     const std::size_t buffer = extension.get("buffer").index(document.buffers.size(), "buffers");
     const Bytes& bytes = document.buffers[buffer];
     const auto offset_view = extension.find("byteOffset");
-    const std::int64_t offset = offset_view ? offset_view->integer(0, kLargestSize) : 0;
-    const std::int64_t length = extension.get("byteLength").integer(1, kLargestSize);
+    const std::int64_t offset = offset_view ? offset_view->integer(0, kLargestCodedSize) : 0;
+    const std::int64_t length = extension.get("byteLength").integer(1, kLargestCodedSize);
     if (offset + length > std::int64_t(bytes.size()))
         extension.fail("reaches byte " + std::to_string(offset + length) + " of buffer " +
                        std::to_string(buffer) + ", which has " + std::to_string(bytes.size()) +
@@ -115,20 +116,20 @@ Coded read_coded(const GltfDocument& document, const JsonView& view, const JsonV
     coded.mode = named_by(extension.get("mode"), kModes);
     coded.filter = filter_of(extension);
     const JsonView stride = extension.get("byteStride");
-    coded.stride = std::size_t(stride.integer(1, kLargestStride));
+    coded.stride = std::size_t(stride.integer(1, kLargestCodedStride));
     if (!fits(coded.mode, coded.filter, coded.stride))
         stride.fail("is " + std::to_string(coded.stride) +
                     ", which this mode and filter cannot have");
-    if (coded.mode != Mode::attributes && coded.filter != Filter::none)
+    if (coded.mode != CodingMode::attributes && coded.filter != Filter::none)
         extension.get("filter").fail("is only for attributes");
     const JsonView count = extension.get("count");
-    coded.count = std::size_t(count.integer(1, kLargestCount));
-    if (coded.mode == Mode::triangles && coded.count % kCornersOfTriangle != 0)
+    coded.count = std::size_t(count.integer(1, kLargestCodedCount));
+    if (coded.mode == CodingMode::triangles && coded.count % kCornersOfTriangle != 0)
         count.fail("is " + std::to_string(coded.count) + ", which makes no whole triangles");
     std::tie(coded.bytes, coded.size) = stretch_of(document, extension);
     check_claim(extension, coded);
     const JsonView length = view.get("byteLength");
-    if (std::size_t(length.integer(1, kLargestSize)) != coded.count * coded.stride)
+    if (std::size_t(length.integer(1, kLargestCodedSize)) != coded.count * coded.stride)
         length.fail("must be count times byteStride of its compressed data, " +
                     std::to_string(coded.count * coded.stride));
     return coded;
@@ -138,13 +139,13 @@ Coded read_coded(const GltfDocument& document, const JsonView& view, const JsonV
 bool decode(const Coded& coded, Bytes& plain)
 {
     switch (coded.mode) {
-    case Mode::attributes:
+    case CodingMode::attributes:
         return meshopt_decodeVertexBuffer(plain.data(), coded.count, coded.stride, coded.bytes,
                                           coded.size) == 0;
-    case Mode::triangles:
+    case CodingMode::triangles:
         return meshopt_decodeIndexBuffer(plain.data(), coded.count, coded.stride, coded.bytes,
                                          coded.size) == 0;
-    case Mode::indices:
+    case CodingMode::indices:
         break;
     }
     return meshopt_decodeIndexSequence(plain.data(), coded.count, coded.stride, coded.bytes,
@@ -168,7 +169,7 @@ void unfilter(const Coded& coded, Bytes& plain)
 Bytes decoded(const GltfDocument& document, const JsonView& view, const JsonView& extension)
 {
     const Coded coded = read_coded(document, view, extension);
-    if (coded.mode == Mode::attributes && coded.bytes[0] == kNewerVertices)
+    if (coded.mode == CodingMode::attributes && coded.bytes[0] == kNewerVertices)
         extension.fail("holds vertices of version 1, but only version 0 is read");
     Bytes plain(coded.count * coded.stride);
     if (!decode(coded, plain))

@@ -9,7 +9,7 @@
 namespace lumel {
 namespace {
 
-constexpr const char *kExtras = "extras", *kPart = "lumel_part", *kWhole = "of", *kPage = "page";
+constexpr const char *kPart = "lumel_part", *kWhole = "of", *kPage = "page";
 /// Runs of triangles of one part: part, count, part, count, …
 constexpr const char* kRuns = "runs";
 constexpr const char *kIndices = "indices", *kPages = "pages";

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char *kSide = "lumel_side", *kFront = "front", *kBack = "back";
 
-std::optional<MarkedSide> mark_of(const Json& primitive)
+std::optional<MarkedSide> side_mark_of(const Json& primitive)
 {
     const Json* side = in_extras(primitive, kSide);
     if (!side)
@@ -52,12 +52,12 @@ void mark_side(Json& primitive, MarkedSide side)
 void join_sides(Json& gltf)
 {
     for_primitive_lists(gltf, [&](Json& primitives) {
-        const auto is_front = [](const Json& p) { return mark_of(p) == MarkedSide::front; };
+        const auto is_front = [](const Json& p) { return side_mark_of(p) == MarkedSide::front; };
         if (std::none_of(primitives.begin(), primitives.end(), is_front))
             return;
         Json kept = Json::array();
         for (Json& primitive : primitives) {
-            const auto mark = mark_of(primitive);
+            const auto mark = side_mark_of(primitive);
             if (mark == MarkedSide::back)
                 continue;
             if (mark) {

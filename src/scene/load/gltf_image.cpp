@@ -24,7 +24,7 @@ constexpr std::uint64_t kLargestJpegPixelsPerByte = 8 * 64;
 
 constexpr std::uint8_t kPngSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 
-[[noreturn]] void fail(const std::string& place, const std::string& what)
+[[noreturn]] void refuse_image(const std::string& place, const std::string& what)
 {
     throw Error(ErrorKind::input, place, what);
 }
@@ -56,7 +56,7 @@ Claim png_claim(const Bytes& bytes, const std::string& place)
 {
     constexpr std::size_t kHeaderEnd = 29;  // signature, then IHDR up to its interlace method
     if (bytes.size() < kHeaderEnd || std::memcmp(bytes.data() + 12, "IHDR", 4) != 0)
-        fail(place, "is a PNG without a header");
+        refuse_image(place, "is a PNG without a header");
     Claim claim{big_endian(bytes, 16), big_endian(bytes, 20)};
     const std::uint8_t color_type = bytes[25];
     const std::uint64_t channels = color_type == 2   ? 3
@@ -100,7 +100,7 @@ Claim jpeg_claim(const Bytes& bytes, const std::string& place)
     int height = 0;
     int channels = 0;
     if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels))
-        fail(place, std::string("is a JPEG without a readable header (") + why_not() + ")");
+        refuse_image(place, std::string("is a JPEG without a readable header (") + why_not() + ")");
     Claim claim{std::uint64_t(width), std::uint64_t(height)};
     claim.possible = claim.width * claim.height <= kLargestJpegPixelsPerByte * bytes.size();
     return claim;
@@ -150,7 +150,7 @@ Claim hdr_claim(const Bytes& bytes, const std::string& place)
     int channels = 0;
     if (!stbi_is_hdr_from_memory(bytes.data(), int(bytes.size())) ||
         !stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels))
-        fail(place, "is not a readable Radiance image");
+        refuse_image(place, "is not a readable Radiance image");
     Claim claim{std::uint64_t(width), std::uint64_t(height)};
     std::optional<std::size_t> at = hdr_data_begin(bytes);
     const bool packed = width >= 8 && width < 32768 && *at + 2 < bytes.size() && bytes[*at] == 2 &&
@@ -161,7 +161,7 @@ Claim hdr_claim(const Bytes& bytes, const std::string& place)
     else
         claim.possible = 4 * claim.width * claim.height <= bytes.size() - *at;
     if (!at)
-        fail(place, "is a Radiance image that is broken or cut short");
+        refuse_image(place, "is a Radiance image that is broken or cut short");
     return claim;
 }
 
@@ -170,13 +170,13 @@ void check_claim(const Claim& claim, std::size_t bytes, const std::string& place
 {
     const std::string size = std::to_string(claim.width) + " x " + std::to_string(claim.height);
     if (claim.width == 0 || claim.height == 0)
-        fail(place, "claims " + size + " pixels");
+        refuse_image(place, "claims " + size + " pixels");
     if (claim.width > kLargestSide || claim.height > kLargestSide)
-        fail(place, "claims " + size + " pixels; at most " + std::to_string(kLargestSide) +
-                        " a side are read");
+        refuse_image(place, "claims " + size + " pixels; at most " + std::to_string(kLargestSide) +
+                                " a side are read");
     if (!claim.possible)
-        fail(place, "claims " + size + " pixels, more than its " + std::to_string(bytes) +
-                        " bytes can hold");
+        refuse_image(place, "claims " + size + " pixels, more than its " + std::to_string(bytes) +
+                                " bytes can hold");
 }
 
 /// Looks for an end marker after the last scan: the decoder fills missing data with grey.
@@ -204,9 +204,9 @@ Texture decode_image(const Bytes& bytes, const std::string& place)
 {
     const bool png = is_png(bytes);
     if (!png && !is_jpeg(bytes) && !is_webp(bytes))
-        fail(place, "is neither a PNG nor a JPEG nor a WebP image");
+        refuse_image(place, "is neither a PNG nor a JPEG nor a WebP image");
     if (bytes.size() > INT_MAX)
-        fail(place, "is larger than 2 GiB");
+        refuse_image(place, "is larger than 2 GiB");
     if (is_webp(bytes))
         return decode_webp(bytes, place);
 
@@ -214,7 +214,8 @@ Texture decode_image(const Bytes& bytes, const std::string& place)
     const Claim claim = png ? png_claim(bytes, place) : jpeg_claim(bytes, place);
     check_claim(claim, bytes.size(), place);
     if (png ? !png_is_complete(bytes) : !jpeg_is_complete(bytes))
-        fail(place, std::string("is a ") + (png ? "PNG" : "JPEG") + " image that is cut short");
+        refuse_image(place,
+                     std::string("is a ") + (png ? "PNG" : "JPEG") + " image that is cut short");
 
     Texture texture;
     constexpr int kChannels = 4;
@@ -224,8 +225,8 @@ Texture decode_image(const Bytes& bytes, const std::string& place)
                               &channels_in_file, kChannels),
         stbi_image_free);
     if (!pixels)
-        fail(place, std::string("cannot be decoded as ") + (png ? "PNG" : "JPEG") + " (" +
-                        why_not() + ")");
+        refuse_image(place, std::string("cannot be decoded as ") + (png ? "PNG" : "JPEG") + " (" +
+                                why_not() + ")");
     const std::size_t count = std::size_t(texture.width) * std::size_t(texture.height) * kChannels;
     texture.rgba.assign(pixels.get(), pixels.get() + count);
     return texture;
@@ -234,7 +235,7 @@ Texture decode_image(const Bytes& bytes, const std::string& place)
 Image decode_hdr(const Bytes& bytes, const std::string& place)
 {
     if (bytes.size() > INT_MAX)
-        fail(place, "is larger than 2 GiB");
+        refuse_image(place, "is larger than 2 GiB");
     check_claim(hdr_claim(bytes, place), bytes.size(), place);
 
     Image image;
@@ -245,7 +246,7 @@ Image decode_hdr(const Bytes& bytes, const std::string& place)
                                &channels_in_file, image.channels),
         stbi_image_free);
     if (!pixels)
-        fail(place, std::string("cannot be decoded as Radiance image (") + why_not() + ")");
+        refuse_image(place, std::string("cannot be decoded as Radiance image (") + why_not() + ")");
     const std::size_t count =
         std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
     image.values.assign(pixels.get(), pixels.get() + count);

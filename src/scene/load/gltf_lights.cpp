@@ -13,7 +13,7 @@ namespace lumel {
 
 namespace {
 
-constexpr const char* kLights = "KHR_lights_punctual";
+constexpr const char* kLampsExtension = "KHR_lights_punctual";
 constexpr const char* kProfiles = "EXT_lights_ies";
 
 void read_cone(const JsonView& view, PunctualLight& light)
@@ -153,14 +153,14 @@ void read_profile(const JsonView& extension, ProfileList& profiles, PunctualLigh
 std::optional<PunctualLight> read_light_of(const JsonView& root, const JsonView& node,
                                            ProfileList& profiles)
 {
-    const auto punctual = node.extension(kLights);
+    const auto punctual = node.extension(kLampsExtension);
     const auto photometric = node.extension(kProfiles);
     if (!punctual && !photometric)
         return std::nullopt;
     PunctualLight light;
     std::string fallback = "light";
     if (punctual) {
-        const auto list = root.extension(kLights);
+        const auto list = root.extension(kLampsExtension);
         const std::size_t count = list ? list->count("lights") : 0;
         const std::size_t index = punctual->get("light").index(count, "lights");
         const JsonView view = list->get("lights").at(index);

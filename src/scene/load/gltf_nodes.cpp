@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kNone = SIZE_MAX;
 /// Tolerance for unit quaternions, which are often written with few digits.
-constexpr float kUnitTolerance = 0.01f;
+constexpr float kScaleTolerance = 0.01f;
 
 /// Parents and children, verified to be a forest.
 struct Hierarchy {
@@ -110,7 +110,7 @@ glm::dquat rotation_of(const JsonView& object)
 {
     glm::vec4 rotation(0.0f, 0.0f, 0.0f, 1.0f);
     object.numbers("rotation", &rotation.x, 4);
-    if (!(std::abs(glm::length(rotation) - 1.0f) <= kUnitTolerance))
+    if (!(std::abs(glm::length(rotation) - 1.0f) <= kScaleTolerance))
         object.get("rotation").fail("is not a unit quaternion");
     const glm::dvec4 unit = glm::normalize(glm::dvec4(rotation));
     return {unit.w, unit.x, unit.y, unit.z};

@@ -19,7 +19,7 @@ namespace lumel {
 
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::max();
+constexpr double kBeyond = std::numeric_limits<double>::max();
 
 /// Counts for warnings.
 struct Notes {
@@ -82,7 +82,7 @@ void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& 
 /// Centres a scene that lies far from 0, before its transforms become floats.
 void recentre(Scene& scene, std::vector<PlacedNode>& nodes)
 {
-    Bounds whole{glm::dvec3(kFar), glm::dvec3(-kFar)};
+    Bounds whole{glm::dvec3(kBeyond), glm::dvec3(-kBeyond)};
     const auto world_of = [&](const Instance& instance) -> const glm::dmat4& {
         const auto found = std::lower_bound(
             nodes.begin(), nodes.end(), std::size_t(instance.node),

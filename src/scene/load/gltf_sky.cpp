@@ -25,7 +25,7 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kLights = "EXT_lights_image_based";
+constexpr const char* kSkyExtension = "EXT_lights_image_based";
 constexpr int kFaces = 6;
 constexpr int kLargestFace = 1024;  ///< larger faces are averaged
 constexpr int kFine = 4;            ///< samples along each side of a sky texel
@@ -120,10 +120,10 @@ Sky sky_of(const Cube& cube, const glm::mat3& rotation, float intensity)
 Sky read_image_based_light(const GltfDocument& document)
 {
     const auto scene = default_scene(document.root());
-    const auto use = scene ? scene->extension(kLights) : std::nullopt;
+    const auto use = scene ? scene->extension(kSkyExtension) : std::nullopt;
     if (!use)
         return {};
-    const auto list = document.root().extension(kLights);
+    const auto list = document.root().extension(kSkyExtension);
     const std::size_t count = list ? list->count("lights") : 0;
     const JsonView light = [&] {
         const std::size_t index = use->get("light").index(count, "lights");

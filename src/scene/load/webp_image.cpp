@@ -14,9 +14,9 @@ namespace {
 /// pixels.
 constexpr std::uint64_t kFreePixels = std::uint64_t(1) << 24;
 constexpr std::uint64_t kPixelsPerByte = 1024;
-constexpr std::size_t kChannels = 4;
+constexpr std::size_t kRgba = 4;
 
-[[noreturn]] void fail(const std::string& place, const std::string& what)
+[[noreturn]] void refuse_webp(const std::string& place, const std::string& what)
 {
     throw Error(ErrorKind::input, place, what);
 }
@@ -33,20 +33,20 @@ Texture decode_webp(const Bytes& bytes, const std::string& place)
 {
     WebPBitstreamFeatures features;
     if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK)
-        fail(place, "is a WebP image without a readable header");
+        refuse_webp(place, "is a WebP image without a readable header");
     if (features.has_animation)
-        fail(place, "is an animated WebP image");
+        refuse_webp(place, "is an animated WebP image");
     const std::uint64_t pixels = std::uint64_t(features.width) * std::uint64_t(features.height);
     if (pixels > kFreePixels && pixels > kPixelsPerByte * bytes.size())
-        fail(place, "claims " + std::to_string(features.width) + " x " +
-                        std::to_string(features.height) + " pixels, far more than its " +
-                        std::to_string(bytes.size()) + " bytes can be expected to hold");
+        refuse_webp(place, "claims " + std::to_string(features.width) + " x " +
+                               std::to_string(features.height) + " pixels, far more than its " +
+                               std::to_string(bytes.size()) + " bytes can be expected to hold");
 
     Texture texture{features.width, features.height, {}};
-    texture.rgba.resize(std::size_t(pixels) * kChannels);
+    texture.rgba.resize(std::size_t(pixels) * kRgba);
     if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), texture.rgba.data(), texture.rgba.size(),
-                            int(std::size_t(texture.width) * kChannels)))
-        fail(place, "cannot be decoded as WebP: it is broken or cut short");
+                            int(std::size_t(texture.width) * kRgba)))
+        refuse_webp(place, "cannot be decoded as WebP: it is broken or cut short");
     return texture;
 }
 

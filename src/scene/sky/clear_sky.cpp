@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -28,9 +29,8 @@
 namespace lumel {
 namespace {
 
-constexpr double kPi = glm::pi<double>();
-constexpr int kWidth = 512;   ///< texels of 0.7°; the sky varies over 10°
-constexpr int kHeight = 256;  ///< the lower half is the ground
+constexpr int kClearWidth = 512;   ///< texels of 0.7°; the sky varies over 10°
+constexpr int kClearHeight = 256;  ///< the lower half is the ground
 constexpr double kTurbidity = 2.5;
 constexpr double kLux = 1000.0;  ///< per klx
 
@@ -38,8 +38,9 @@ double relative_luminance(double cos_zenith, double from_sun)
 {
     const double gradation = 1.0 - std::exp(-0.32 / cos_zenith);
     const double cosine = std::cos(from_sun);
-    return gradation * (1.0 + 10.0 * (std::exp(-3.0 * from_sun) - std::exp(-1.5 * kPi)) +
-                        0.45 * cosine * cosine);
+    return gradation *
+           (1.0 + 10.0 * (std::exp(-3.0 * from_sun) - std::exp(-1.5 * std::numbers::pi)) +
+            0.45 * cosine * cosine);
 }
 
 /// A chromaticity coordinate of [PSS99]. Perez coefficients are slope × turbidity + offset; the
@@ -113,22 +114,22 @@ double sun_illuminance(double elevation)
 
 Sky clear_sky(const SunPosition& sun)
 {
-    Sky sky{.width = kWidth, .height = kHeight};
-    sky.radiance.assign(std::size_t(kWidth) * kHeight, glm::vec3(0.0f));
+    Sky sky{.width = kClearWidth, .height = kClearHeight};
+    sky.radiance.assign(std::size_t(kClearWidth) * kClearHeight, glm::vec3(0.0f));
     if (sun.elevation <= 0.0)
         return sky;
     const glm::dvec3 to_sun(direction_of(sun));
-    const double sun_zenith = 0.5 * kPi - sun.elevation;
-    for (int row = 0; row < kHeight / 2; ++row)
-        for (int column = 0; column < kWidth; ++column) {
-            const double zenith = kPi * (row + 0.5) / kHeight;
-            const double phi = 2.0 * kPi * (column + 0.5) / kWidth;
+    const double sun_zenith = 0.5 * std::numbers::pi - sun.elevation;
+    for (int row = 0; row < kClearHeight / 2; ++row)
+        for (int column = 0; column < kClearWidth; ++column) {
+            const double zenith = std::numbers::pi * (row + 0.5) / kClearHeight;
+            const double phi = 2.0 * std::numbers::pi * (column + 0.5) / kClearWidth;
             const glm::dvec3 direction(-std::cos(phi) * std::sin(zenith), std::cos(zenith),
                                        -std::sin(phi) * std::sin(zenith));
             const double from_sun = std::acos(std::clamp(glm::dot(direction, to_sun), -1.0, 1.0));
             const glm::vec3 color = color_of(kX.at(direction.y, from_sun, sun_zenith),
                                              kY.at(direction.y, from_sun, sun_zenith));
-            sky.radiance[std::size_t(row) * kWidth + std::size_t(column)] =
+            sky.radiance[std::size_t(row) * kClearWidth + std::size_t(column)] =
                 float(relative_luminance(direction.y, from_sun)) * color;
         }
     const auto level = float(clear_sky_illuminance(sun.elevation) / luminance(sky_irradiance(sky)));

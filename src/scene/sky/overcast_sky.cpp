@@ -16,8 +16,9 @@
 namespace lumel {
 namespace {
 
-constexpr int kWidth = 64;    ///< independent of azimuth; as in a uniform sky
-constexpr int kHeight = 128;  ///< rows of 1.4°, over which the luminance varies by at most 2 %
+constexpr int kOvercastWidth = 64;  ///< independent of azimuth; as in a uniform sky
+constexpr int kOvercastHeight =
+    128;  ///< rows of 1.4°, over which the luminance varies by at most 2 %
 
 double relative_luminance(double sine)
 {
@@ -28,15 +29,15 @@ double relative_luminance(double sine)
 
 Sky overcast_sky(float lux)
 {
-    Sky sky{.width = kWidth, .height = kHeight};
-    sky.radiance.assign(std::size_t(kWidth) * kHeight, glm::vec3(0.0f));
+    Sky sky{.width = kOvercastWidth, .height = kOvercastHeight};
+    sky.radiance.assign(std::size_t(kOvercastWidth) * kOvercastHeight, glm::vec3(0.0f));
     const auto sine_above = [](int row) {
-        return std::cos(glm::pi<double>() * double(row) / kHeight);
+        return std::cos(glm::pi<double>() * double(row) / kOvercastHeight);
     };
-    for (int row = 0; row < kHeight / 2; ++row) {
+    for (int row = 0; row < kOvercastHeight / 2; ++row) {
         const double mean = 0.5 * (sine_above(row) + sine_above(row + 1));
-        for (int column = 0; column < kWidth; ++column)
-            sky.radiance[std::size_t(row) * kWidth + std::size_t(column)] =
+        for (int column = 0; column < kOvercastWidth; ++column)
+            sky.radiance[std::size_t(row) * kOvercastWidth + std::size_t(column)] =
                 glm::vec3(float(relative_luminance(mean)));
     }
     const auto level = float(double(lux) / luminance(glm::vec3(sky_irradiance(sky))));

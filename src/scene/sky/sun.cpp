@@ -31,7 +31,7 @@ namespace {
 
 constexpr double kSecondsPerDay = 86400.0;
 
-[[noreturn]] void refuse(const std::string& date_time)
+[[noreturn]] void refuse_time(const std::string& date_time)
 {
     throw Error(ErrorKind::input, "",
                 quoted(date_time) + " is not a date and time such as 2024-06-21T12:00:00Z (UTC) or "
@@ -68,14 +68,14 @@ double seconds_since_2000(const std::string& date_time)
     const int read = std::sscanf(date_time.c_str(), "%4d-%2d-%2dT%2d:%2d%n:%2d%n", &year, &month,
                                  &day, &hour, &minute, &length, &second, &length);
     if (read < 5)
-        refuse(date_time);
+        refuse_time(date_time);
     const std::optional<int> offset = offset_of(date_time.substr(std::size_t(length)));
     const chrono::year_month_day date{chrono::year(year), chrono::month(unsigned(month)),
                                       chrono::day(unsigned(day))};
     const bool valid = date.ok() && hour >= 0 && hour < 24 && minute >= 0 && minute < 60 &&
                        second >= 0 && second <= 60;
     if (!valid || !offset)
-        refuse(date_time);
+        refuse_time(date_time);
     constexpr chrono::year_month_day kEpoch{chrono::year(2000), chrono::January, chrono::day(1)};
     const auto days = (chrono::sys_days(date) - chrono::sys_days(kEpoch)).count();
     return (double(days) - 0.5) * kSecondsPerDay + hour * 3600.0 + minute * 60.0 + second - *offset;

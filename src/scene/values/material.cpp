@@ -41,8 +41,9 @@ struct TexelSpan {
 TexelSpan span_of(float coordinate, int size, Wrap wrap)
 {
     // Larger coordinates have no sub-texel precision.
-    constexpr double kFar = 1e12;
-    const double position = std::clamp(double(coordinate) * size - 0.5, -kFar, kFar);
+    constexpr double kFarthestTexel = 1e12;
+    const double position =
+        std::clamp(double(coordinate) * size - 0.5, -kFarthestTexel, kFarthestTexel);
     const double floor = std::floor(position);
     const auto texel = static_cast<long long>(floor);
     return {wrapped(texel, size, wrap), wrapped(texel + 1, size, wrap), float(position - floor)};

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include <glm/gtc/constants.hpp>
 
@@ -18,8 +19,6 @@
 namespace lumel {
 namespace {
 
-constexpr double kPi = glm::pi<double>();
-
 struct Texel {
     int row = 0;
     int column = 0;
@@ -27,20 +26,21 @@ struct Texel {
 
 double cosine_above(const Sky& sky, int row)
 {
-    return std::cos(kPi * double(row) / double(sky.height));
+    return std::cos(std::numbers::pi * double(row) / double(sky.height));
 }
 
 double angle_of(const Sky& sky, int row)
 {
-    return 2.0 * kPi / double(sky.width) * (cosine_above(sky, row) - cosine_above(sky, row + 1));
+    return 2.0 * std::numbers::pi / double(sky.width) *
+           (cosine_above(sky, row) - cosine_above(sky, row + 1));
 }
 
 Texel texel_towards(const Sky& sky, const glm::vec3& direction)
 {
     const double theta = std::acos(std::clamp(double(direction.y), -1.0, 1.0));
     const double phi = std::atan2(-double(direction.z), -double(direction.x));
-    const double u = phi / (2.0 * kPi) + (phi < 0.0 ? 1.0 : 0.0);
-    return {std::min(int(theta / kPi * sky.height), sky.height - 1),
+    const double u = phi / (2.0 * std::numbers::pi) + (phi < 0.0 ? 1.0 : 0.0);
+    return {std::min(int(theta / std::numbers::pi * sky.height), sky.height - 1),
             std::min(int(u * sky.width), sky.width - 1)};
 }
 
@@ -97,7 +97,7 @@ glm::dvec3 sky_irradiance(const Sky& sky)
     for (int row = 0; row < (sky.height + 1) / 2; ++row) {
         const double above = cosine_above(sky, row);
         const double below = std::max(0.0, cosine_above(sky, row + 1));
-        const double weight = kPi / sky.width * (above * above - below * below);
+        const double weight = std::numbers::pi / sky.width * (above * above - below * below);
         for (int column = 0; column < sky.width; ++column)
             sum += weight * glm::dvec3(sky.radiance[index_of(sky, {row, column})]);
     }
@@ -134,7 +134,7 @@ SkySample SkySampler::sample(const glm::vec2& at) const
 
     const double y =
         glm::mix(cosine_above(*sky_, row.entry), cosine_above(*sky_, row.entry + 1), row.rest);
-    const double phi = 2.0 * kPi * (column.entry + column.rest) / sky_->width;
+    const double phi = 2.0 * std::numbers::pi * (column.entry + column.rest) / sky_->width;
     const double sine = std::sqrt(std::max(0.0, 1.0 - y * y));
     const double share =
         share_of(row_sums_.data(), row.entry) * share_of(&texel_sums_[first], column.entry);

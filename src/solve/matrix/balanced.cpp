@@ -6,11 +6,10 @@
 
 #include "base/core/error.h"
 #include "base/core/parallel.h"
+#include "solve/matrix/rows_per_task.h"
 
 namespace lumel {
 namespace {
-
-constexpr std::size_t kRowsPerTask = 16;
 
 /// A darker colour leaves too little of a column to divide by it.
 constexpr float kDarkest = 1e-3f;

@@ -13,8 +13,8 @@
 namespace lumel {
 namespace {
 
-constexpr int kSixths = 6;      // mixtures are thirds and halves of two codes
-constexpr int kMaxRounds = 16;  // each tries every step of both ends
+constexpr int kSixths = 6;        // mixtures are thirds and halves of two codes
+constexpr int kMaxSearches = 16;  // each tries every step of both ends
 constexpr std::array<int, 3> kBits = {5, 6, 5};
 
 using Coded = std::array<int, 3>;
@@ -169,7 +169,7 @@ Bc1Encoder::Ends Bc1Encoder::refined(const ColorBlock& entries, Ends ends) const
     };
     ends.error = error_of(entries, ends, INFINITY, nullptr);
     bool nearer = true;
-    for (int round = 0; nearer && round < kMaxRounds; ++round) {
+    for (int round = 0; nearer && round < kMaxSearches; ++round) {
         nearer = false;
         for (std::size_t end = 0; end < 2; ++end)
             for (const Coded& step : kSteps)

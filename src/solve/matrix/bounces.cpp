@@ -15,6 +15,7 @@
 #include "base/core/error.h"
 #include "base/core/parallel.h"
 #include "solve/matrix/blas.h"
+#include "solve/matrix/rows_per_task.h"
 
 namespace lumel {
 namespace {
@@ -22,8 +23,6 @@ namespace {
 /// More than this many times its own light no patch may get back: beyond, half of a float's digits
 /// are lost in the solution, and the room would have to reflect 99.99 % of all light.
 constexpr float kLargestGain = 1e4f;
-
-constexpr std::size_t kRowsPerTask = 16;
 
 blas::Operand operand(const SquareMatrix& matrix)
 {

@@ -6,11 +6,10 @@
 #include "base/core/error.h"
 #include "base/core/parallel.h"
 #include "solve/matrix/blas.h"
+#include "solve/matrix/rows_per_task.h"
 
 namespace lumel {
 namespace {
-
-constexpr std::size_t kRowsPerTask = 16;
 
 void append_rows(CodedBasis& basis, std::span<const float> values)
 {

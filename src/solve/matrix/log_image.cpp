@@ -10,11 +10,10 @@
 #include <numeric>
 
 #include "solve/matrix/log_code.shared.h"
+#include "solve/matrix/rows_per_task.h"
 
 namespace lumel {
 namespace {
-
-constexpr std::size_t kRowsPerTask = 16;
 
 float log_code(float value, float largest, float offset)
 {

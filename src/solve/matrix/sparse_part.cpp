@@ -7,11 +7,10 @@
 
 #include "base/core/error.h"
 #include "base/core/parallel.h"
+#include "solve/matrix/rows_per_task.h"
 
 namespace lumel {
 namespace {
-
-constexpr std::size_t kRowsPerTask = 16;
 
 /// Columns of the `columns.size()` largest of a row, ascending. Of equal ones the first.
 void choose_largest(std::span<const float> row, std::span<std::uint16_t> columns)

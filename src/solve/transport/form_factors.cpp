@@ -27,7 +27,7 @@ namespace lumel {
 namespace {
 
 constexpr std::uint32_t kOne = 0x3f800000;  // 1.0f
-constexpr std::size_t kRowsPerTask = 32;
+constexpr std::size_t kFactorRowsPerTask = 32;
 constexpr std::size_t kLumelsPerTask = 4096;
 /// Balancing ends when relative differences of sums are below this, or after kMaxRounds rounds.
 constexpr double kBalanced = 1e-6;
@@ -55,7 +55,7 @@ double make_symmetric(SquareMatrix& matrix, std::span<const float> area)
 {
     const std::size_t n = matrix.size;
     std::vector<double> off(n, 0.0), all(n, 0.0);
-    parallel_for(n, kRowsPerTask, [&](std::size_t first, std::size_t last) {
+    parallel_for(n, kFactorRowsPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             for (std::size_t j = i; j < n; ++j) {
                 float& here = matrix.values[i * n + j];
@@ -75,7 +75,7 @@ std::vector<double> row_sums(const SquareMatrix& matrix, const std::vector<doubl
 {
     const std::size_t n = matrix.size;
     std::vector<double> sums(n, 0.0);
-    parallel_for(n, kRowsPerTask, [&](std::size_t first, std::size_t last) {
+    parallel_for(n, kFactorRowsPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             for (std::size_t j = 0; j < n; ++j)
                 sums[i] += double(matrix.values[i * n + j]) * x[j];
@@ -123,7 +123,7 @@ FormFactorCheck balance(SquareMatrix& form_factors, std::span<const float> area,
     check.row_sum = std::sqrt(check.row_sum / double(std::max<std::size_t>(check.closed, 1)));
     check.reciprocity = make_symmetric(form_factors, area);
     const std::vector<double> scale = scales_for(form_factors, target);
-    parallel_for(n, kRowsPerTask, [&](std::size_t first, std::size_t last) {
+    parallel_for(n, kFactorRowsPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             for (std::size_t j = 0; j < n; ++j)
                 form_factors.values[i * n + j] *= float(scale[i] * scale[j] / double(area[i]));

@@ -17,7 +17,7 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kLumelsPerTask = 256;
+constexpr std::size_t kRowLumelsPerTask = 256;
 /// Drops factors below this fraction of an equal share of a lumel's sum, and scales up the others.
 /// These are a tenth of all factors and a thousandth of the light.
 constexpr float kMinShare = 0.02f;
@@ -29,7 +29,7 @@ constexpr double kSeen = 0.5;
 std::vector<glm::vec3> LumelRows::apply(std::span<const glm::vec3> sent) const
 {
     std::vector<glm::vec3> light(size(), glm::vec3(0.0f));
-    parallel_for(light.size(), kLumelsPerTask, [&](std::size_t begin, std::size_t end) {
+    parallel_for(light.size(), kRowLumelsPerTask, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             for (std::uint32_t k = first[i]; k < first[i + 1]; ++k)
                 light[i] += from_half(std::uint16_t(entry[k].code)) * sent[entry[k].code >> 16];

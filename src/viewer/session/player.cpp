@@ -66,7 +66,7 @@ void ScriptPlayer::step()
         } catch (const Error& error) {
             if (error.kind() != ErrorKind::input)
                 throw;
-            throw Error(ErrorKind::input, place_of(path_, command.line), error.what());
+            throw Error(ErrorKind::input, line_of(path_, command.line), error.what());
         }
     }
 }

@@ -15,7 +15,7 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kRows = 4, kProbes = 1;  ///< minimum per task
+constexpr std::size_t kBallRows = 4, kProbes = 1;  ///< minimum per task
 
 /// Bounding box of a ball in the image, from low to high [pixels].
 struct Drawn {
@@ -89,7 +89,7 @@ void draw_balls(Image& picture, const View& view, const RayScene& rays,
     for (const ProbeBall& ball : balls)
         if (const std::optional<Drawn> one = drawn(ball, radius, view, size))
             all.push_back(*one);
-    parallel_for(std::size_t(picture.height), kRows, [&](std::size_t first, std::size_t last) {
+    parallel_for(std::size_t(picture.height), kBallRows, [&](std::size_t first, std::size_t last) {
         for (int y = int(first); y < int(last); ++y)
             for (int x = 0; x < picture.width; ++x) {
                 const Ray ray = ray_through(view, (glm::vec2(x, y) + 0.5f) / size);

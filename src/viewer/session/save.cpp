@@ -8,6 +8,7 @@
 
 #include "base/core/error.h"
 #include "base/core/files.h"
+#include "base/json/json_file.h"
 #include "jobs/bake/bake.h"
 #include "results/files/folder.h"
 #include "results/files/glb_builder.h"
@@ -25,11 +26,6 @@ constexpr double kSamePlace = 1e-6;  ///< tolerance of transform elements, relat
 [[noreturn]] void refuse(const std::string& what)
 {
     throw Error(ErrorKind::input, "", what);
-}
-
-Json numbers(const glm::vec3& v)
-{
-    return Json::array({v.x, v.y, v.z});
 }
 
 bool is_same(const glm::dmat4& a, const glm::dmat4& b)
@@ -104,7 +100,7 @@ void set_emission(Json& gltf, Json& material, const glm::vec3& emitted)
 {
     const float brightest = std::max({emitted.x, emitted.y, emitted.z});
     const float strength = std::max(brightest, 1.0f);  // factors are 1 at most
-    material["emissiveFactor"] = numbers(emitted / strength);
+    material["emissiveFactor"] = json_array(emitted / strength);
     material["extensions"][kStrength] = {{"emissiveStrength", strength}};
     Json& used = gltf["extensionsUsed"];
     if (std::find(used.begin(), used.end(), kStrength) == used.end())
@@ -158,7 +154,7 @@ void dim_lights(Json& gltf, const ViewSession& session)
             const float most = std::max({lamp.factor.x, lamp.factor.y, lamp.factor.z});
             const glm::vec3 factor = most > 0.0f ? lamp.factor / most : lamp.factor;
             const PunctualLight& given = session.light().scene().lights[lamp.index];
-            light["color"] = numbers(given.color * factor);
+            light["color"] = json_array(given.color * factor);
             light["intensity"] = given.intensity * most;
         }
         if (!found)

@@ -248,7 +248,7 @@ void check_files(const std::vector<ScriptCommand>& commands, const std::string& 
             takes != ArgumentKind::folder)
             continue;
         if (std::find(files.begin(), files.end(), command.text) != files.end())
-            throw Error(ErrorKind::input, place_of(place, command.line),
+            throw Error(ErrorKind::input, line_of(place, command.line),
                         lumel::quoted(command.text) + " is written twice");
         files.push_back(command.text);
     }
@@ -266,7 +266,7 @@ ScriptCommand solve_command(const SolverOptions& solver)
     return {.form = form_of("solve"), .line = 0, .solver = solver};
 }
 
-std::string place_of(const std::string& place, int line)
+std::string line_of(const std::string& place, int line)
 {
     return line == 0 ? "--solver" : fmt::format("{}:{}", place, line);
 }
@@ -277,7 +277,7 @@ std::vector<ScriptCommand> read_script(std::string_view text, const std::string&
     int line = 0;
     while (!text.empty()) {
         const std::size_t end = text.find('\n');
-        const std::string here = place_of(place, ++line);
+        const std::string here = line_of(place, ++line);
         Words words(text.substr(0, end), here);
         if (std::string word; words.next(word))
             commands.push_back(read_command(word, words, line, here));

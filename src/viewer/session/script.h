@@ -92,6 +92,6 @@ std::vector<ScriptCommand> read_script(std::string_view text, const std::string&
 ScriptCommand solve_command(const SolverOptions& solver);
 
 /// A line of the script for messages; line 0 is --solver.
-std::string place_of(const std::string& place, int line);
+std::string line_of(const std::string& place, int line);
 
 }  // namespace lumel

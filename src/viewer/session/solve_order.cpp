@@ -10,7 +10,7 @@
 namespace lumel {
 namespace {
 
-constexpr double kPercent = 100.0;
+constexpr double kPercentOf = 100.0;
 constexpr double kMaxShots = 1e15;  ///< largest count without gaps in doubles
 
 /// A limit of a solve, common to all methods.
@@ -22,10 +22,11 @@ struct Limit {
 
 constexpr std::array kLimits = {
     Limit{"error", "a number above 0", false,
-          [](SolverOptions& options, double value) { options.target_error = value / kPercent; }},
-    Limit{
-        "dark-error", "a number above 0", false,
-        [](SolverOptions& options, double value) { options.target_dark_error = value / kPercent; }},
+          [](SolverOptions& options, double value) { options.target_error = value / kPercentOf; }},
+    Limit{"dark-error", "a number above 0", false,
+          [](SolverOptions& options, double value) {
+              options.target_dark_error = value / kPercentOf;
+          }},
     Limit{"shots", "a whole number from 1 on", true,
           [](SolverOptions& options, double value) { options.max_shots = std::uint64_t(value); }},
     Limit{"time", "a number above 0", false,

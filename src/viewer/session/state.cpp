@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "base/core/luminance.h"
+#include "base/json/json_file.h"
 #include "jobs/inspect/probes.h"
 #include "results/record/solver_settings.h"
 #include "viewer/session/session.h"
@@ -14,12 +15,7 @@
 namespace lumel {
 namespace {
 
-Json numbers(const glm::vec3& v)
-{
-    return Json::array({v.x, v.y, v.z});
-}
-
-Json numbers(const SunPosition& sun)
+Json json_of(const SunPosition& sun)
 {
     return {{"azimuth", glm::degrees(sun.azimuth)}, {"elevation", glm::degrees(sun.elevation)}};
 }
@@ -67,7 +63,7 @@ Json probes_of(ViewSession& session)
         return nullptr;
     Json probes = Json::array();
     for (const ProbeBall& ball : session.probe_balls())
-        probes.push_back({{"position", numbers(ball.place)},
+        probes.push_back({{"position", json_array(ball.place)},
                           {"coefficients", coefficients_of(ball.light)},
                           {"noise", ball.light.noise}});
     return {{"spacing_m", session.probe_spacing()}, {"probes", probes}};
@@ -98,7 +94,7 @@ Json lumel_of(ViewSession& session, std::uint32_t number)
             {"texel", Json::array({texel % lumels.width, texel / lumels.width})},
             {"chart", lumel.chart},
             {"back", (lumel.flags & kLumelBack) != 0},
-            {"irradiance", numbers(light)},
+            {"irradiance", json_array(light)},
             {"illuminance_lx", luminance(light)},
             {"error_percent", percent_of(session.error_estimate()[number])}};
 }
@@ -113,9 +109,9 @@ Json picked_of(ViewSession& session)
                  {"instance", picked.instance},
                  {"material", scene.materials[std::size_t(picked.material)].name},
                  {"movable", picked.thing.has_value()},
-                 {"place", numbers(picked.place)}};
+                 {"place", json_array(picked.place)}};
     if (picked.lumel != kNoLumel) {
-        json["normal"] = numbers(picked.normal);
+        json["normal"] = json_array(picked.normal);
         json["distance"] = picked.distance;
         json["lumel"] = lumel_of(session, picked.lumel);
     }
@@ -156,7 +152,7 @@ Json lamps_of(const ViewSession& session)
 {
     Json json = Json::array();
     for (const ViewLamp& lamp : session.lamps())
-        json.push_back({{"name", lamp.name}, {"factor", numbers(lamp.factor)}});
+        json.push_back({{"name", lamp.name}, {"factor", json_array(lamp.factor)}});
     return json;
 }
 
@@ -173,9 +169,9 @@ Json state_of(ViewSession& session)
     json["frames"] = costs_of(session.costs());
     json["pictures"] = costs_of(session.picture_costs());
     json["picture"] = {{"width", size.x}, {"height", size.y}};
-    json["camera"] = {{"eye", numbers(camera.eye())},
-                      {"forward", numbers(camera.forward())},
-                      {"up", numbers(camera.up())}};
+    json["camera"] = {{"eye", json_array(camera.eye())},
+                      {"forward", json_array(camera.forward())},
+                      {"up", json_array(camera.up())}};
     json["mode"] = kViewModes[std::size_t(session.mode())];
     json["exposure"] = {{"automatic", session.has_automatic_exposure()},
                         {"stops", session.stops()},
@@ -187,7 +183,7 @@ Json state_of(ViewSession& session)
     json["picked"] = picked_of(session);
     json["links"] = links_of(session);
     json["lamps"] = lamps_of(session);
-    json["sun"] = session.sun() ? numbers(*session.sun()) : Json(nullptr);
+    json["sun"] = session.sun() ? json_of(*session.sun()) : Json(nullptr);
     json["sky_degrees"] = glm::degrees(session.sky_angle());
     json["time_s"] = session.time();
     return json;

@@ -20,9 +20,9 @@ struct Sized {
 /// All instances with triangles, and the diagonal of the scene.
 std::pair<std::vector<Sized>, float> sizes(const Scene& scene)
 {
-    constexpr float kFar = std::numeric_limits<float>::max();
+    constexpr float kFarthest = std::numeric_limits<float>::max();
     std::vector<Sized> all;
-    glm::vec3 low(kFar), high(-kFar);
+    glm::vec3 low(kFarthest), high(-kFarthest);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const auto [from, to] = bounds_of(scene, i);
         if (!(from.x <= to.x))
@@ -69,8 +69,8 @@ std::vector<std::uint32_t> named_ones(const Scene& scene, const std::vector<std:
 
 std::pair<glm::vec3, glm::vec3> bounds_of(const Scene& scene, std::uint32_t instance)
 {
-    constexpr float kFar = std::numeric_limits<float>::max();
-    glm::vec3 low(kFar), high(-kFar);
+    constexpr float kFarthest = std::numeric_limits<float>::max();
+    glm::vec3 low(kFarthest), high(-kFarthest);
     const Instance& one = scene.instances[instance];
     for (const Primitive& primitive : scene.meshes[std::size_t(one.mesh)].primitives)
         for (const std::uint32_t vertex : primitive.indices) {

@@ -12,14 +12,14 @@
 namespace lumel {
 namespace {
 
-constexpr float kLook = 0.2f, kOrbit = 0.4f;  ///< degrees per pixel of mouse movement
-constexpr float kTurn = 15.0f;                ///< degrees per key press
-constexpr float kGaze = 60.0f;                ///< degrees per second while a key is down
-constexpr float kWheel = 0.2f;                ///< seconds of walking per wheel notch
-constexpr float kKeyPress = 0.1f;             ///< minimum seconds of walking per key press
-constexpr float kClick = 4.0f;                ///< mouse movement that starts a drag [pixels]
-constexpr float kStop = 0.5f;                 ///< exposure stops per key press
-constexpr float kFarthest = 1e3f;             ///< maximum distance of a moved object, in strides
+constexpr float kLookSpeed = 0.2f, kOrbitSpeed = 0.4f;  ///< degrees per pixel of mouse movement
+constexpr float kTurn = 15.0f;                          ///< degrees per key press
+constexpr float kGaze = 60.0f;                          ///< degrees per second while a key is down
+constexpr float kWheel = 0.2f;                          ///< seconds of walking per wheel notch
+constexpr float kKeyPress = 0.1f;  ///< minimum seconds of walking per key press
+constexpr float kClick = 4.0f;     ///< mouse movement that starts a drag [pixels]
+constexpr float kStop = 0.5f;      ///< exposure stops per key press
+constexpr float kFarthest = 1e3f;  ///< maximum distance of a moved object, in strides
 
 constexpr std::array kHelp = {
     KeyHelp{"W A S D", "walk"},
@@ -248,7 +248,7 @@ void Controls::drag(ViewSession& session, UiState& desk)
     desk.changed = true;
     if (drag_ == Drag::thing)
         return move_thing(session, desk);
-    const float step = glm::radians(drag_ == Drag::look ? kLook : kOrbit);
+    const float step = glm::radians(drag_ == Drag::look ? kLookSpeed : kOrbitSpeed);
     if (drag_ == Drag::look)
         session.camera().gaze(step * way.x, step * way.y);
     else

@@ -20,10 +20,10 @@ constexpr float kMinError = 0.1f, kMaxError = 50.0f;  ///< [%]
 /// An atlas size of 0 uses the options' density.
 void show_links(UiState& desk)
 {
-    constexpr std::array kRays = {4, 16, 64, 256};
-    int chosen = int(std::find(kRays.begin(), kRays.end(), desk.rays) - kRays.begin());
+    constexpr std::array kOffered = {4, 16, 64, 256};
+    int chosen = int(std::find(kOffered.begin(), kOffered.end(), desk.rays) - kOffered.begin());
     if (ImGui::Combo("rays", &chosen, "4\00016\00064\000256\0"))
-        desk.rays = kRays[std::size_t(chosen)];
+        desk.rays = kOffered[std::size_t(chosen)];
     if (ImGui::InputInt("atlas", &desk.atlas, kAtlasStep))
         desk.atlas = std::clamp(desk.atlas, 0, kMaxAtlas);
     if (ImGui::InputInt("seed", &desk.seed))

@@ -10,7 +10,7 @@
 namespace lumel {
 namespace {
 
-constexpr double kPercent = 100.0;
+constexpr double kInPercent = 100.0;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void Solving::follow(ViewSession& session, UiState& desk)
                stops = std::exchange(desk.stop, false);
     if (begins && !aside_) {
         SolverOptions options{.method = desk.method.options()};
-        options.target_error = double(desk.error) / kPercent;
+        options.target_error = double(desk.error) / kInPercent;
         desk.message.clear();
         begin(session, options);
     }
