@@ -52,14 +52,28 @@ SolverOptions with_shots(SolverOptions options, std::uint64_t shooters, const Lu
     return options;
 }
 
-/// Shooters where all directions bring about the same light: of links, whose shots are rays of each
-/// lumel, fewer will do.
-std::uint64_t for_even_light(const std::string& name, std::uint64_t shooters)
+/// Shots of a method that bring as little noise as that many random shooters: those of links are
+/// rays of each lumel, of which fewer will do.
+std::uint64_t shots_like(const std::string& method, std::uint64_t shooters)
 {
-    constexpr std::uint64_t kFewerRays = 8, kFewerOfDrawn = 4;
-    return name == "links"    ? shooters / kFewerRays
-           : name == "raster" ? shooters / kFewerOfDrawn
-                              : shooters;
+    constexpr std::uint64_t kFewerRays = 8, kFewerOfDrawn = 4, kFewerBrightest = 2;
+    return method == "links"         ? shooters / kFewerRays
+           : method == "raster"      ? shooters / kFewerOfDrawn
+           : method == "progressive" ? shooters / kFewerBrightest
+                                     : shooters;
+}
+
+/// Where all light is direct: links, which would refine it as long as there are shots, end at an
+/// estimated error.
+SolverOptions for_direct_light(const std::string& method, std::uint64_t shooters,
+                               const Lumels& lumels, const Gathering& gathering = {})
+{
+    constexpr double kEnough = 0.001;
+    SolverOptions options =
+        with_shots({.method = method_named(method)}, shooters, lumels, gathering);
+    if (std::holds_alternative<LinksOptions>(options.method))
+        options.target_error = kEnough;
+    return options;
 }
 
 /// Area-weighted mean of B = E + ρH over all channels, and the share of lumels within
@@ -76,7 +90,7 @@ Glow furnace_glow(const std::string& name, double truth, double tolerance, Solve
     // Every direction lights every lumel.
     const std::uint64_t shooters = std::holds_alternative<DirectionsOptions>(options.method)
                                        ? 4096
-                                       : for_even_light(method, 16384);
+                                       : shots_like(method, 16384);
     const Solved solved =
         support::solve_scene(furnace, with_shots(options, shooters, furnace.lumels, {40}));
     Glow glow;
@@ -144,9 +158,9 @@ double plate_error(const std::string& method, const support::Quad& emitter,
     const RayScene rays(plates.scene);
     // Half of all directions lie behind a plate.
     const std::uint64_t shooters = method == "directions" ? 8192 : 4096;
-    const Solved solved = support::solve_scene(
-        plates.scene, rays, plates.lumels,
-        with_shots({.method = method_named(method)}, shooters, plates.lumels), &atlas);
+    const Solved solved =
+        support::solve_scene(plates.scene, rays, plates.lumels,
+                             for_direct_light(method, shooters, plates.lumels), &atlas);
     double square = 0.0, sum = 0.0;
     for (std::size_t i = plates.first[0]; i < plates.first[1]; ++i) {
         // A lumel is the mean over its area: average the closed form over it.
@@ -236,9 +250,9 @@ TEST_P(GrazingLight, FromALowLampMatchesThePointFormFactor)
     support::HandMade place = support::make_quads(quads);
     const Atlas atlas = support::lay_out(place, quads);
     const RayScene rays(place.scene);
-    const Solved solved = support::solve_scene(
-        place.scene, rays, place.lumels,
-        with_shots({.method = method_named(GetParam())}, 4096, place.lumels, {3, 96}), &atlas);
+    const Solved solved =
+        support::solve_scene(place.scene, rays, place.lumels,
+                             for_direct_light(GetParam(), 4096, place.lumels, {3, 96}), &atlas);
     double arrived[3] = {}, truth[3] = {};  // by metre of distance
     for (std::size_t i = place.first[0]; i < place.first[1]; ++i) {
         const glm::vec3 x = place.lumels.lumels[i].position;
@@ -343,7 +357,7 @@ TEST_P(PatchworkSphere, LightsAllPatchesAlike)
     const Solved solved =
         support::solve_scene(sphere.scene, rays, sphere.lumels,
                              with_shots({.method = method_named(GetParam())},
-                                        for_even_light(GetParam(), 4096), sphere.lumels),
+                                        shots_like(GetParam(), 4096), sphere.lumels),
                              &atlas);
     double by_albedo[2] = {}, by_emission[2] = {}, counts[4] = {};
     for (std::size_t i = 0; i < quads.size(); ++i) {

@@ -309,8 +309,7 @@ TEST_P(LiveScenes, LampsAndSkyFoundInShortBudgetsAreThoseOfOneLongCall)
 TEST_P(LiveScenes, TheImageShowsTheIrradianceOfWholeMovesOnly)
 {
     const Scene scene = room_with_a_box();
-    LiveOptions options = options_for(scene, GetParam());
-    options.atlas.size = 32;
+    LiveOptions options = small_options(GetParam(), {find_instance(scene, "box")});
     LiveScene live(device, scene, options);
     live.settle();
     const auto first = live.irradiance();
@@ -336,8 +335,7 @@ TEST_P(LiveScenes, TheImageShowsTheIrradianceOfWholeMovesOnly)
 TEST_P(LiveScenes, BrighterAndDarkerSurfacesAreLitAsIfTheyAlwaysWereSo)
 {
     const Scene scene = room_with_a_box();
-    LiveOptions options = options_for(scene, GetParam());
-    options.atlas.size = 32;
+    LiveOptions options = small_options(GetParam(), {find_instance(scene, "box")});
     const std::uint32_t lamp = find_instance(scene, "lamp"), wall = find_instance(scene, "wall -y");
     const glm::vec3 dimmed(0.25f, 0.5f, 1.0f), stained(0.1f, 0.9f, 0.5f);
     LiveScene changed(device, scene, options);
@@ -396,8 +394,7 @@ Scene room_with_a_bulb()
 TEST_P(LiveScenes, ABulbLightsAMovedSceneAsOneThatAlwaysStoodSo)
 {
     const Scene scene = room_with_a_bulb();
-    LiveOptions options = options_for(scene, GetParam());
-    options.atlas.size = kSmallSide;
+    LiveOptions options = small_options(GetParam(), {find_instance(scene, "box")});
     LiveScene moved(device, scene, options);
     moved.settle();
     const auto first = moved.irradiance();
@@ -414,8 +411,7 @@ TEST_P(LiveScenes, ABulbLightsAMovedSceneAsOneThatAlwaysStoodSo)
 TEST_P(LiveScenes, LampsTwiceAsBrightLightTwiceAsMuchAndNoneNothing)
 {
     const Scene scene = room_with_a_bulb();
-    LiveOptions options = options_for(scene, GetParam());
-    options.atlas.size = kSmallSide;
+    LiveOptions options = small_options(GetParam(), {find_instance(scene, "box")});
     LiveScene live(device, scene, options);
     live.set_light(0, glm::vec3(0.0f));
     live.settle();
