@@ -77,7 +77,8 @@ TEST_F(TwoQuads, TheDensityOfAMaterialStaysWithIt)
 {
     Json dense = file();
     dense["materials"][0]["extras"] = {{"lumel", {{"texels_per_metre", 40}}}};
-    for (const Json& material : lit(dense)["materials"])
+    const Json json = lit(dense);
+    for (const Json& material : json["materials"])
         EXPECT_EQ(material["extras"]["lumel"]["texels_per_metre"], 40);
 }
 
