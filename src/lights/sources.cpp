@@ -22,8 +22,8 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 /// Uniform emitters of at most this many triangles use exact polygon form factors.
 constexpr std::size_t kMaxPolygons = 8;
-/// Larger emitters are split until each part has at most kMaxOfMesh triangles, or a bounding box
-/// whose sides are at most kSmallMesh × the diagonal of the scene.
+/// Larger emitters are split until each part has at most kMaxOfMesh triangles or a bounding box
+/// with sides of at most kSmallMesh × the diagonal of the scene.
 constexpr std::size_t kMaxOfMesh = 64;
 constexpr float kSmallMesh = 0.02f;
 /// Candidate triangles, of which one is chosen by its light here. [TCE05]
