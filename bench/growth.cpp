@@ -34,15 +34,14 @@ void grow(const Settings& settings)
     fmt::print("{:>6} {:>9} {:>16} {:>18} {:>22}\n", "atlas", "lumels", "wall ms/shooter",
                "cpu ms/shooter", "cpu ns/shooter/lumel");
     for (const int size : settings.growth) {
-        const Prepared world = prepare(settings, size);
+        const SolveScene world = prepare(settings, size);
         const World gpu_world(device, world.scene, world.lumels);
         const NearField none{.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)};
-        const HostScene host{world.scene, world.rays, world.atlas};
         const auto solver = make_solver({.device = device,
                                          .world = &gpu_world,
                                          .lumels = world.lumels,
                                          .near = none,
-                                         .host = &host},
+                                         .scene = &world},
                                         solver_of(settings));
         shoot(*solver, kTimedShots);
         double cpu = 1e30, wall = 1e30;

@@ -60,7 +60,7 @@ std::uint32_t warm_up_of(const Lumels& lumels)
 
 }  // namespace
 
-IteratedGather::IteratedGather(const Prepared& place, SampleRule rule, std::uint32_t seed)
+IteratedGather::IteratedGather(const SolveScene& place, SampleRule rule, std::uint32_t seed)
     : place_(place),
       surfaces_(place.scene),
       lights_(place.scene, place.rays, surfaces_, place.rays.ray_offset()),

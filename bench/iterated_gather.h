@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "atlas/near/hit_lumels.h"
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "rays/paths/samples.h"
 #include "rays/paths/surfaces.h"
 #include "truth/lights.h"
@@ -20,7 +20,7 @@ namespace lumel::bench {
 class IteratedGather {
 public:
     /// `place` must outlive it.
-    IteratedGather(const Prepared& place, SampleRule rule, std::uint32_t seed);
+    IteratedGather(const SolveScene& place, SampleRule rule, std::uint32_t seed);
 
     /// A few rays more from every lumel.
     void pass();
@@ -46,7 +46,7 @@ private:
     Seen look(PathVertex vertex, const PathSamples& samples) const;
     bool is_open(std::uint32_t lumel) const;
 
-    const Prepared& place_;
+    const SolveScene& place_;
     Surfaces surfaces_;
     Lights lights_;
     LumelStarts starts_;

@@ -63,7 +63,7 @@ NearField near_field_around(const Scene& scene, const RayScene& rays, const Lume
 
 void time_moves(const Settings& settings)
 {
-    const Prepared prepared = prepare(settings, settings.size);
+    const SolveScene prepared = prepare(settings, settings.size);
     const Lumels& lumels = prepared.lumels;
     Scene scene = prepared.scene;
     const std::uint32_t thing = find_instance(scene, settings.moves);

@@ -46,7 +46,7 @@ double form_factor(const Eye& eye, const Lumel& lumel)
            double(lumel.area) / (std::numbers::pi * r2 * r2 + r2 * double(lumel.area));
 }
 
-Pairs draw_pairs(const gpu::Device& device, const Prepared& world)
+Pairs draw_pairs(const gpu::Device& device, const SolveScene& world)
 {
     Pairs pairs;
     for (const Lumel& lumel : World(device, world.scene, world.lumels).lumels().download())
@@ -162,7 +162,7 @@ View look(const gpu::Device& device, const World& world, Projection projection, 
 void compare_projections(const Settings& settings)
 {
     const gpu::Device device(settings.device);
-    const Prepared world = prepare(settings, settings.size);
+    const SolveScene world = prepare(settings, settings.size);
     const Pairs pairs = draw_pairs(device, world);
     fmt::print("{}: {} lumels, {} eyes, device: {} ({})\n", settings.scene, pairs.lumels.size(),
                kEyes, device.info().name, device.info().driver);

@@ -24,7 +24,7 @@ namespace {
 constexpr int kWarmUpSteps = 8;
 
 /// Each row traces its paths anew, as `lumel reference` does: they are stratified as a whole.
-void race_path_tracer(const Settings& settings, const Prepared& world, Score& score)
+void race_path_tracer(const Settings& settings, const SolveScene& world, Score& score)
 {
     const MethodOptions given = settings.given.options();
     double cost = 0.0;  // of a sample
@@ -42,7 +42,7 @@ void race_path_tracer(const Settings& settings, const Prepared& world, Score& sc
     }
 }
 
-void race_iterated_gather(const Settings& settings, const Prepared& world, Score& score)
+void race_iterated_gather(const Settings& settings, const SolveScene& world, Score& score)
 {
     const MethodOptions given = settings.given.options();
     Stopwatch watch;
@@ -63,7 +63,7 @@ void race_iterated_gather(const Settings& settings, const Prepared& world, Score
 
 /// What sky and lamps send straight to the lumels [N] [lx]; empty if there are none.
 std::vector<glm::vec3> light_of(const Settings& settings, const gpu::Device& device,
-                                const World& world, const Prepared& prepared)
+                                const World& world, const SolveScene& prepared)
 {
     if (!has_lights(prepared.scene) || method_of(settings.given.id).finds_lights)
         return {};
@@ -73,16 +73,15 @@ std::vector<glm::vec3> light_of(const Settings& settings, const gpu::Device& dev
 }
 
 /// The driver compiles shaders when they first run; it keeps them for the next time.
-void warm_up(const Settings& settings, const gpu::Device& device, const Prepared& world)
+void warm_up(const Settings& settings, const gpu::Device& device, const SolveScene& world)
 {
     const World warm(device, world.scene, world.lumels, &world.atlas);
     Settings few = settings;
     few.sky_directions = 2;
     light_of(few, device, warm, world);
-    const HostScene host{world.scene, world.rays, world.atlas};
     const NearField none{.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)};
     const auto solver = make_solver(
-        {.device = device, .world = &warm, .lumels = world.lumels, .near = none, .host = &host},
+        {.device = device, .world = &warm, .lumels = world.lumels, .near = none, .scene = &world},
         solver_of(settings));
     for (int i = 0; i < kWarmUpSteps; ++i)
         solver->step();
@@ -113,7 +112,7 @@ void add_rows(const Settings& settings, const std::vector<glm::vec3>& direct, So
     }
 }
 
-void race_solver(const Settings& settings, const Prepared& world, Score& score)
+void race_solver(const Settings& settings, const SolveScene& world, Score& score)
 {
     const SolverOptions options = solver_of(settings);
     const gpu::Device device(settings.device);
@@ -133,14 +132,13 @@ void race_solver(const Settings& settings, const Prepared& world, Score& score)
     const std::vector<glm::vec3> direct =
         on_device ? light_of(settings, device, *gpu_world, world) : std::vector<glm::vec3>();
     const std::optional<Lumels> lit = shining(world.lumels, direct);
-    const HostScene host{world.scene, world.rays, world.atlas};
     const std::optional<LobeParticles> particles = particles_for(world, options);
     const auto solver = make_solver({.device = device,
                                      .world = gpu_world ? &*gpu_world : nullptr,
                                      .lumels = lit ? *lit : world.lumels,
                                      .near = near,
                                      .particles = particles ? &*particles : nullptr,
-                                     .host = &host},
+                                     .scene = &world},
                                     options);
     watch.stop();
     const double start = watch.cpu - set_up;
@@ -157,7 +155,7 @@ void race_solver(const Settings& settings, const Prepared& world, Score& score)
 }
 
 /// Runs the racer of a name.
-Score race_one(const std::string& name, const Settings& settings, const Prepared& world,
+Score race_one(const std::string& name, const Settings& settings, const SolveScene& world,
                const std::optional<Truth>& truth)
 {
     Score score(name, settings, truth);
@@ -176,7 +174,7 @@ void race(const Settings& settings)
 {
     check_racers(settings);
     const Settings first = settings_of(settings, first_method(settings));
-    const Prepared world = prepare(first, settings.size);
+    const SolveScene world = prepare(first, settings.size);
     fmt::print("{}: {} lumels at {}², {} triangles drawn\n", settings.scene,
                world.lumels.lumels.size(), world.atlas.width,
                find_occluders(world.scene).inner_indices().size() / 3);

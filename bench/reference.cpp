@@ -10,7 +10,7 @@
 
 namespace lumel::bench {
 
-std::optional<Image> reference_map(const Settings& settings, const Prepared& world)
+std::optional<Image> reference_map(const Settings& settings, const SolveScene& world)
 {
     if (!settings.reference.empty())
         return read_exr(settings.reference);

@@ -9,6 +9,6 @@
 namespace lumel::bench {
 
 /// The irradiance map that the settings name, or path traced by them. Empty: none.
-std::optional<Image> reference_map(const Settings& settings, const Prepared& world);
+std::optional<Image> reference_map(const Settings& settings, const SolveScene& world);
 
 }  // namespace lumel::bench

@@ -18,17 +18,19 @@ constexpr int kWidth = 720;    ///< of each of both pictures [pixels]
 constexpr int kBorder = 8;     ///< between them [pixels]
 constexpr float kEnd = 0.02f;  ///< error at which the light is shown
 
-std::vector<glm::vec3> light_of(const Prepared& prepared, const gpu::Device& device,
+std::vector<glm::vec3> light_of(const SolveScene& prepared, const gpu::Device& device,
                                 const Settings& settings)
 {
     SolverOptions options = solver_of(settings);
     options.target_error = kEnd;
     const NearField near = near_field_for(prepared.scene, prepared.rays, prepared.lumels, options);
     const World world(device, prepared.scene, prepared.lumels, &prepared.atlas);
-    const HostScene host{prepared.scene, prepared.rays, prepared.atlas};
-    const auto solver = make_solver(
-        {.device = device, .world = &world, .lumels = prepared.lumels, .near = near, .host = &host},
-        options);
+    const auto solver = make_solver({.device = device,
+                                     .world = &world,
+                                     .lumels = prepared.lumels,
+                                     .near = near,
+                                     .scene = &prepared},
+                                    options);
     solve(*solver, options);
     return solver->irradiance();
 }
@@ -53,7 +55,7 @@ Image side_by_side(const Image& left, const Image& right)
     return both;
 }
 
-View view_for(const Settings& settings, const Prepared& prepared)
+View view_for(const Settings& settings, const SolveScene& prepared)
 {
     View view = choose_view(prepared.scene, prepared.rays);
     if (const std::vector<float>& from = settings.from; !from.empty()) {
@@ -74,7 +76,7 @@ void print_row(const char* when, const SeamGaps& gaps)
 void show_seams(const Settings& settings)
 {
     const gpu::Device device(settings.device);
-    const Prepared prepared = prepare(settings, settings.size);
+    const SolveScene prepared = prepare(settings, settings.size);
     const Image before = with_seams(prepared.lumels, light_of(prepared, device, settings));
     Image after = before;
     match_seams(after, prepared.scene, prepared.atlas, prepared.lumels);

@@ -117,9 +117,9 @@ Scene scene_of(const Settings& settings)
     return scene;
 }
 
-Prepared prepare(const Settings& settings, int size)
+SolveScene prepare(const Settings& settings, int size)
 {
-    return Prepared(scene_of(settings), AtlasOptions{.size = size});
+    return SolveScene(scene_of(settings), AtlasOptions{.size = size});
 }
 
 }  // namespace lumel::bench

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "methods/methods.h"
 #include "raster/shadow_maps/direct_light.h"
 
@@ -87,6 +87,6 @@ Options options_of(const Settings& settings)
 Scene scene_of(const Settings& settings);
 
 /// The same, laid out in an atlas of side `size`. Throws Error.
-Prepared prepare(const Settings& settings, int size);
+SolveScene prepare(const Settings& settings, int size);
 
 }  // namespace lumel::bench

@@ -62,7 +62,7 @@ std::vector<glm::vec3> read_lumels(const std::string& path, std::size_t count)
 
 /// Light from the file of that name, if references are kept and it is there, else as `make` finds
 /// it.
-std::vector<glm::vec3> kept(const Settings& settings, const Prepared& world,
+std::vector<glm::vec3> kept(const Settings& settings, const SolveScene& world,
                             const std::string& name,
                             const std::function<std::vector<glm::vec3>()>& make)
 {
@@ -76,7 +76,8 @@ std::vector<glm::vec3> kept(const Settings& settings, const Prepared& world,
     return light;
 }
 
-std::vector<glm::vec3> reference(const Settings& settings, const Prepared& world, std::size_t which)
+std::vector<glm::vec3> reference(const Settings& settings, const SolveScene& world,
+                                 std::size_t which)
 {
     return kept(settings, world, std::to_string(which + 1), [&] {
         fmt::print("reference {}: path tracing {} samples per lumel …\n", which + 1,
@@ -90,7 +91,7 @@ std::vector<glm::vec3> reference(const Settings& settings, const Prepared& world
 }
 
 /// An estimate with little noise, independent of the references.
-std::vector<glm::vec3> find_guide(const Settings& settings, const Prepared& world)
+std::vector<glm::vec3> find_guide(const Settings& settings, const SolveScene& world)
 {
     return kept(settings, world, "guide", [&] {
         IteratedGather gather(world, rule_of(settings.given.options()), kGuideSeed);
@@ -152,7 +153,7 @@ double Truth::noise() const
     return scale > 0.0 ? std::sqrt(squares / count) / scale : 0.0;
 }
 
-std::optional<Truth> find_truth(const Settings& settings, const Prepared& world)
+std::optional<Truth> find_truth(const Settings& settings, const SolveScene& world)
 {
     if (settings.reference_spp <= 0)
         return {};

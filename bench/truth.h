@@ -49,6 +49,6 @@ private:
 
 /// Reads the references that the settings name, or traces paths, and then keeps them if they are
 /// named. Empty: none. Throws Error.
-std::optional<Truth> find_truth(const Settings& settings, const Prepared& world);
+std::optional<Truth> find_truth(const Settings& settings, const SolveScene& world);
 
 }  // namespace lumel::bench

@@ -40,7 +40,7 @@ struct Sight {
     Sight(const AblationSettings& settings, const gpu::Device& device);
 
     SolverOptions options;  ///< of GlossyOptions
-    Prepared world;
+    SolveScene world;
     NearField near;
     World resident;
     std::optional<LobeParticles> particles;
@@ -56,7 +56,7 @@ Settings glossy(Settings settings)
     return settings;
 }
 
-Seen seen_by_camera(const AblationSettings& settings, const Prepared& world,
+Seen seen_by_camera(const AblationSettings& settings, const SolveScene& world,
                     const Surfaces& surfaces)
 {
     const View view = choose_view(world.scene, world.rays);
@@ -167,7 +167,7 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
         // Without rays, shooters send what lobes do.
         GlossyIllumination alone(device, sight.resident, sight.world.lumels, sight.near, gloss);
         solve(alone, options);
-        const Prepared& world = sight.world;
+        const SolveScene& world = sight.world;
         const SideMaps maps =
             finish_sides(world.scene, world.atlas, world.lumels, solver.irradiance());
         const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);
@@ -183,7 +183,7 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
 
 /// Light at every lumel after some iterations of the papers' scheme, between seeds.
 Spread spread_of_irradiance(const AblationSettings& settings, const gpu::Device& device,
-                            const Prepared& world, const World& resident,
+                            const SolveScene& world, const World& resident,
                             const StochasticOptions& options)
 {
     Spread spread;
@@ -207,8 +207,8 @@ Spread spread_of_irradiance(const AblationSettings& settings, const gpu::Device&
 void ablate_choices(const AblationSettings& settings, const gpu::Device& device, Report& report)
 {
     const Settings shared = glossy(settings.shared);
-    const Prepared world(read_gltf(shared.scene, MaterialModel::glossy),
-                         AtlasOptions{.size = shared.size});
+    const SolveScene world(read_gltf(shared.scene, MaterialModel::glossy),
+                           AtlasOptions{.size = shared.size});
     const World resident(device, world.scene, world.lumels);
     report.table(
         "choices",
@@ -264,7 +264,7 @@ void ablate_disc(const AblationSettings& settings, const gpu::Device& device, Re
 {
     Settings diffuse = settings.shared;
     diffuse.given.id = "stochastic";
-    const Prepared world = prepare(diffuse, diffuse.size);
+    const SolveScene world = prepare(diffuse, diffuse.size);
     const World resident(device, world.scene, world.lumels);
     report.table("disc",
                  fmt::format("Partial analytic integration ([BSS05] Eq. (8)): {} lumels, {} "

@@ -60,7 +60,7 @@ Image glossy_picture(const ConvergenceSettings& settings, SolverOptions options,
 }
 
 Image picture_of(const ConvergenceSettings& settings, const SolverOptions& options,
-                 const gpu::Device& device, const Prepared& world, const Step& step)
+                 const gpu::Device& device, const SolveScene& world, const Step& step)
 {
     if (is_glossy(options))
         return glossy_picture(settings, options, step.iterations);
@@ -103,19 +103,18 @@ void add_row(Report& report, const SolverOptions& options, const SolverState& st
 
 /// Returns the pictures, none without a folder for them.
 std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptions& options,
-                          const gpu::Device& device, const Prepared& world,
+                          const gpu::Device& device, const SolveScene& world,
                           const std::optional<Image>& reference, Report& report)
 {
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
     const std::optional<LobeParticles> particles = particles_for(world, options);
-    const HostScene host{world.scene, world.rays, world.atlas};
     const SolverInputs inputs{.device = device,
                               .world = &resident,
                               .lumels = world.lumels,
                               .near = near,
                               .particles = particles ? &*particles : nullptr,
-                              .host = &host};
+                              .scene = &world};
     {  // the driver compiles shaders when they first run
         const auto warm = make_solver(inputs, options);
         warm->step();
@@ -149,7 +148,7 @@ std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptio
 void follow_convergence(const ConvergenceSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
-    const Prepared world = prepare(settings.shared, settings.shared.size);
+    const SolveScene world = prepare(settings.shared, settings.shared.size);
     const std::optional<Image> reference = reference_map(settings.shared, world);
     report.say(fmt::format("{}, {}, {} lumels at {}², {}", settings.shared.scene,
                            settings.shared.given.id, world.lumels.lumels.size(), world.atlas.width,

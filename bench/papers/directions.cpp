@@ -84,7 +84,7 @@ struct LinkSet {
     Stopwatch watch;
 };
 
-LinkSet gather(const gpu::Device& device, const Prepared& world, const SolverOptions& options)
+LinkSet gather(const gpu::Device& device, const SolveScene& world, const SolverOptions& options)
 {
     const World resident(device, world.scene, world.lumels, &world.atlas);
     const NearField none = no_near_field(world.lumels);
@@ -113,14 +113,14 @@ SolverOptions options_for(const DirectionsSettings& settings, const Example& exa
 }
 
 /// The same directions with exact layers: what is left is the error of the stochastic ones.
-MapError error_of_layers(const gpu::Device& device, const Prepared& world, SolverOptions options,
+MapError error_of_layers(const gpu::Device& device, const SolveScene& world, SolverOptions options,
                          const LinkSet& stochastic)
 {
     std::get<DirectionsOptions>(options.method).layers = Layers::list;
     return compare_maps(stochastic.map, gather(device, world, options).map);
 }
 
-Image picture_of(const gpu::Device& device, const Prepared& world, const Image& map, int width)
+Image picture_of(const gpu::Device& device, const SolveScene& world, const Image& map, int width)
 {
     View view = choose_view(world.scene, world.rays);
     view.aspect = kAspect;
@@ -128,8 +128,8 @@ Image picture_of(const gpu::Device& device, const Prepared& world, const Image& 
     return tone_map(picture, kExposure * choose_exposure(picture));
 }
 
-void add_row(Report& report, const Example& example, const Prepared& world, const LinkSet& gathered,
-             const MapError& error)
+void add_row(Report& report, const Example& example, const SolveScene& world,
+             const LinkSet& gathered, const MapError& error)
 {
     const auto directions = double(gathered.directions);
     const auto ms = [&](const char* stage) {
@@ -152,8 +152,8 @@ bool is_wanted(const DirectionsSettings& settings, const Example& example)
 std::vector<Image> show(const DirectionsSettings& settings, const gpu::Device& device,
                         const Example& example, Report& report)
 {
-    const Prepared world(scene_of(example, settings.sky),
-                         AtlasOptions{.size = settings.shared.size * example.finer});
+    const SolveScene world(scene_of(example, settings.sky),
+                           AtlasOptions{.size = settings.shared.size * example.finer});
     const SolverOptions options = options_for(settings, example);
     const LinkSet gathered = gather(device, world, options);
     add_row(report, example, world, gathered, error_of_layers(device, world, options, gathered));

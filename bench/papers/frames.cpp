@@ -39,7 +39,7 @@ struct Frame {
                 {.samples_per_lumel = settings.shared.reference_spp, .seed = 99 + h});
     }
 
-    Prepared world;
+    SolveScene world;
     NearField near;
     World resident;
     LobeParticles particles;

@@ -116,7 +116,7 @@ void time_iterations(const IterationSettings& settings, Report& report)
     std::vector<Costs> maps;
     for (const int size : settings.sizes) {
         maps.emplace_back();
-        const Prepared world = prepare(settings.shared, size);
+        const SolveScene world = prepare(settings.shared, size);
         for (const int vertices : settings.vertices) {
             const Scene scene = drawn_with(world.scene, vertices);
             const World resident(device, scene, world.lumels);

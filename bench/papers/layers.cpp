@@ -158,7 +158,7 @@ Chances measure_chances(const LayersSettings& settings, const gpu::Device& devic
                         int slabs)
 {
     const auto shared = options_of<DirectionsOptions>(settings.shared);
-    const Prepared world(stack_of(planes), AtlasOptions{.size = kStackAtlas});
+    const SolveScene world(stack_of(planes), AtlasOptions{.size = kStackAtlas});
     const World resident(device, world.scene, world.lumels, &world.atlas);
     IlluminationMaps maps(device, resident, Layers::stochastic, std::uint32_t(shared.map_side), 1,
                           std::uint32_t(world.lumels.width), std::uint32_t(world.lumels.height),
@@ -219,7 +219,7 @@ void add_chances(Report& report, const LayersSettings& settings, const gpu::Devi
 
 /// What the plane on top receives on one side: by how much the red exceeds the green, as a part
 /// of it.
-double red_error(const Prepared& world, const std::vector<glm::vec3>& irradiance,
+double red_error(const SolveScene& world, const std::vector<glm::vec3>& irradiance,
                  std::uint32_t side)
 {
     glm::dvec3 sum(0.0);
@@ -233,7 +233,7 @@ double red_error(const Prepared& world, const std::vector<glm::vec3>& irradiance
 }
 
 void add_red(Report& report, const LayersSettings& settings, const gpu::Device& device,
-             const Prepared& world)
+             const SolveScene& world)
 {
     const World resident(device, world.scene, world.lumels, &world.atlas);
     report.table("red", "Red light that leaks onto the plane on top ([TN11] figure 8)",
@@ -272,8 +272,8 @@ void measure_layers(const LayersSettings& settings, Report& report)
     const int map_side = options_of<DirectionsOptions>(shared).map_side;
     LightOptions white;
     white.sky_color = glm::vec3(1.0f);
-    const Prepared world(read_scene(shared.scene, MaterialModel::diffuse, white),
-                         AtlasOptions{.size = shared.size});
+    const SolveScene world(read_scene(shared.scene, MaterialModel::diffuse, white),
+                           AtlasOptions{.size = shared.size});
     report.say(fmt::format("{}, {} lumels at {}², {} directions, maps of {}², {}", shared.scene,
                            world.lumels.lumels.size(), world.atlas.width, settings.directions,
                            map_side, words_of(device)));

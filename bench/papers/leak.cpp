@@ -130,8 +130,8 @@ void follow_light(const LeakSettings& settings, Report& report)
     const gpu::Device device(settings.shared.device);
     LightOptions white;
     white.sky_color = glm::vec3(1.0f);
-    Prepared prepared(read_scene(settings.shared.scene, MaterialModel::diffuse, white),
-                      AtlasOptions{.size = settings.shared.size});
+    SolveScene prepared(read_scene(settings.shared.scene, MaterialModel::diffuse, white),
+                        AtlasOptions{.size = settings.shared.size});
     const World world(device, prepared.scene, prepared.lumels, &prepared.atlas);
     DirectionsOptions of_truth = options_for(settings, 0.0);
     of_truth.seed += 1;

@@ -17,7 +17,7 @@ constexpr float kMargin = 0.05f;    // of the scene's box: no light within this 
 constexpr std::size_t kLumelsPerTask = 256;
 
 /// E [N] of a point light of 1 cd.
-std::vector<glm::vec3> light_of(const Prepared& world, const WorldLumels& lumels,
+std::vector<glm::vec3> light_of(const SolveScene& world, const WorldLumels& lumels,
                                 const glm::vec3& lamp)
 {
     std::vector<glm::vec3> light(lumels.size(), glm::vec3(0.0f));
@@ -42,7 +42,7 @@ double lit_share(const std::vector<glm::vec3>& light)
     return double(lit) / double(light.size());
 }
 
-std::vector<std::vector<glm::vec3>> light_patches(const Prepared& world,
+std::vector<std::vector<glm::vec3>> light_patches(const SolveScene& world,
                                                   const VoxelPatches& patches, int count)
 {
     const WorldLumels lumels(world.scene, world.rays, world.lumels);
@@ -69,7 +69,7 @@ MatrixCase make_matrix_case(const gpu::Device& device, const Settings& settings,
 {
     auto options = options_of<MatrixOptions>(settings);
     options.transport.patches = patches;
-    const Prepared world = prepare(settings, settings.size);
+    const SolveScene world = prepare(settings, settings.size);
     const NearField near =
         near_field_for(world.scene, world.rays, world.lumels, {.method = options});
     const World resident(device, world.scene, world.lumels);

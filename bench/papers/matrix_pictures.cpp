@@ -71,7 +71,7 @@ struct Solved {
     double cpu = 0.0;  ///< [s]
 };
 
-Solved solve_by_matrix(const gpu::Device& device, const Settings& settings, const Prepared& world,
+Solved solve_by_matrix(const gpu::Device& device, const Settings& settings, const SolveScene& world,
                        std::uint32_t patches)
 {
     auto method = options_of<MatrixOptions>(settings);
@@ -81,10 +81,12 @@ Solved solve_by_matrix(const gpu::Device& device, const Settings& settings, cons
     watch.start();
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
-    const HostScene host{world.scene, world.rays, world.atlas};
-    const auto solver = make_solver(
-        {.device = device, .world = &resident, .lumels = world.lumels, .near = near, .host = &host},
-        options);
+    const auto solver = make_solver({.device = device,
+                                     .world = &resident,
+                                     .lumels = world.lumels,
+                                     .near = near,
+                                     .scene = &world},
+                                    options);
     solve(*solver, options);
     Image map = finish_map(world.scene, world.atlas, world.lumels, solver->irradiance());
     watch.stop();
@@ -157,7 +159,7 @@ void draw_matrix(Report& report, const MatrixCase& matrix_case, const std::strin
 void draw_beside_paths(const gpu::Device& device, const Settings& settings, std::uint32_t patches,
                        int width, const std::string& folder, Report& report)
 {
-    const Prepared world = prepare(settings, settings.size);
+    const SolveScene world = prepare(settings, settings.size);
     Stopwatch watch;
     watch.start();
     const std::optional<Image> truth = reference_map(settings, world);

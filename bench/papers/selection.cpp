@@ -140,7 +140,7 @@ void time_selection(const SelectionSettings& settings, Report& report)
     const std::vector<float> numbers = draw_numbers(settings.draws, seed_of(options.method));
     double largest = 0.0;  // read-back over the rest
     for (const int size : settings.sizes) {
-        const Prepared world = prepare(settings.shared, size);
+        const SolveScene world = prepare(settings.shared, size);
         const World resident(device, world.scene, world.lumels);
         const NearField none = no_near_field(world.lumels);
         const auto solver = make_solver({device, &resident, world.lumels, none}, options);

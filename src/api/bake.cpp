@@ -91,7 +91,7 @@ Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, const Bak
                                              ? solve_sources(device, setting, options, stages)
                                              : solve_light(device, setting, options, stages);
     const SolverState solved = solution->solver->state();
-    const Prepared& prepared = setting.prepared;
+    const SolveScene& prepared = setting.prepared;
     Baked baked;
     baked.interrupted = stages.stopped();
     stages.begin("finishing");

@@ -46,43 +46,6 @@ std::vector<std::string> shining_materials(const Scene& scene, std::uint32_t ins
     return names;
 }
 
-constexpr int kNone = -1;
-
-/// Index of a copy of the material without emission; the material itself if it has none.
-int without_emission(Scene& scene, int material, std::vector<int>& dark)
-{
-    if (scene.materials[std::size_t(material)].emitted == glm::vec3(0.0f))
-        return material;
-    int& made = dark[std::size_t(material)];
-    if (made == kNone) {
-        made = int(scene.materials.size());
-        scene.materials.push_back(scene.materials[std::size_t(material)]);
-        scene.materials.back().emitted = glm::vec3(0.0f);
-    }
-    return made;
-}
-
-/// Index of a copy of the mesh without emission.
-int without_emission(Scene& scene, int mesh, std::vector<int>& dark_mesh,
-                     std::vector<int>& dark_material)
-{
-    const auto shines = [&](const Primitive& primitive) {
-        return scene.materials[std::size_t(primitive.material)].emitted != glm::vec3(0.0f);
-    };
-    const std::vector<Primitive>& primitives = scene.meshes[std::size_t(mesh)].primitives;
-    if (std::none_of(primitives.begin(), primitives.end(), shines))
-        return mesh;
-    int& made = dark_mesh[std::size_t(mesh)];
-    if (made == kNone) {
-        made = int(scene.meshes.size());
-        Mesh copy = scene.meshes[std::size_t(mesh)];
-        for (Primitive& primitive : copy.primitives)
-            primitive.material = without_emission(scene, primitive.material, dark_material);
-        scene.meshes.push_back(std::move(copy));
-    }
-    return made;
-}
-
 LightSource& named(std::vector<LightSource>& sources, const std::string& name)
 {
     const auto found = std::find_if(sources.begin(), sources.end(),
@@ -124,20 +87,6 @@ Scene lamps_of(const Scene& scene, const LightSource& source)
     for (const std::uint32_t i : source.lights)
         lamps.lights.push_back(scene.lights[i]);
     return lamps;
-}
-
-Scene only_shining(Scene scene, const LightSource& source)
-{
-    scene.sky = {};
-    scene.lights.clear();
-    std::vector<int> dark_mesh(scene.meshes.size(), kNone),
-        dark_material(scene.materials.size(), kNone);
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        int& mesh = scene.instances[i].mesh;
-        if (!contains(source.instances, i))
-            mesh = without_emission(scene, mesh, dark_mesh, dark_material);
-    }
-    return scene;
 }
 
 }  // namespace lumel

@@ -32,8 +32,4 @@ std::vector<LightSource> light_sources(const Scene& scene, const Lumels& lumels)
 /// A scene with only the source's sky and lamps, without geometry; input of direct_light().
 Scene lamps_of(const Scene& scene, const LightSource& source);
 
-/// The scene with only the emission of the source's instances. Instances, primitives and triangles
-/// keep their indices.
-Scene only_shining(Scene scene, const LightSource& source);
-
 }  // namespace lumel

@@ -95,13 +95,16 @@ float power_per_area(const MaterialSample& look)
 
 }  // namespace
 
-LightSources::LightSources(const Scene& scene, const Surfaces& surfaces, float extent)
+LightSources::LightSources(const Scene& scene, const Surfaces& surfaces, float extent,
+                           LightSelection selection)
     : scene_(&scene),
       surfaces_(&surfaces),
       extent_(extent),
-      most_(kInfinite)
+      selection_(std::move(selection)),
+      most_(selection_.only_surfaces ? 0.0f : kInfinite)
 {
-    cut_sky();
+    if (!selection_.only_surfaces)
+        cut_sky();
     place();
 }
 
@@ -110,7 +113,8 @@ void LightSources::place()
     sources_.clear();
     triangles_.clear();
     add_surfaces(*surfaces_);
-    add_lights();
+    if (!selection_.only_surfaces)
+        add_lights();
     if (bright_power_ > 0.0)
         sources_.push_back({.kind = Kind::sky, .power = bright_power_});
 }
@@ -160,11 +164,18 @@ void LightSources::add_surfaces(const Surfaces& surfaces)
     }
 }
 
+/// True if the selection has the surfaces of an instance.
+bool LightSources::counts(std::uint32_t instance) const
+{
+    const std::vector<std::uint32_t>& chosen = selection_.instances;
+    return chosen.empty() || std::find(chosen.begin(), chosen.end(), instance) != chosen.end();
+}
+
 /// Adds the emissive triangles of a surface, as one source or as several compact groups.
 void LightSources::add_surface(const Surfaces& surfaces, std::size_t index)
 {
     const PlacedSurface& surface = surfaces.all()[index];
-    if (!surface.may_emit)
+    if (!surface.may_emit || !counts(surfaces.instance(index)))
         return;
     const std::size_t begin = triangles_.size();
     const Primitive& primitive = *surface.source;

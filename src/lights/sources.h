@@ -23,12 +23,19 @@ struct SourceSample {
     std::optional<glm::vec3> open = {};
 };
 
+/// Lights of a scene that count as sources.
+struct LightSelection {
+    bool only_surfaces = false;              ///< neither lamps nor the sky
+    std::vector<std::uint32_t> instances{};  ///< whose surfaces count; empty: all
+};
+
 /// The light sources of a scene, to be sampled by shadow rays.
 class LightSources {
 public:
     /// The scene and its surfaces must outlive this and not move. extent: diagonal of the scene
     /// [m].
-    LightSources(const Scene& scene, const Surfaces& surfaces, float extent);
+    LightSources(const Scene& scene, const Surfaces& surfaces, float extent,
+                 LightSelection selection = {});
 
     /// Updates the positions of lamps and surfaces.
     void place();
@@ -88,6 +95,7 @@ private:
     void add_surfaces(const Surfaces& surfaces);
     void add_surface(const Surfaces& surfaces, std::size_t index);
     void add_lights();
+    bool counts(std::uint32_t instance) const;
     void cut_sky();
     float form_factors(const Source& source, const RayOrigin& start, float* of_triangles) const;
     SourceSample from_triangle(const Source& source, const Triangle& triangle, float chance,
@@ -104,6 +112,7 @@ private:
     const Scene* scene_;
     const Surfaces* surfaces_;
     float extent_;  ///< [m]
+    LightSelection selection_;
     std::vector<Source> sources_;
     std::vector<Triangle> triangles_;
     std::vector<double> running_;  ///< [triangles] running power within their source, up to 1

@@ -26,7 +26,7 @@ namespace {
 std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits& limits,
                                const LinksOptions& own)
 {
-    return std::make_unique<LinkRadiosity>(in.device, *in.host, in.lumels, own, limits, in.parts);
+    return std::make_unique<LinkRadiosity>(in.device, *in.scene, own, limits, in.parts);
 }
 
 std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits&,
@@ -46,8 +46,8 @@ std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits& limits
                                const DirectionsOptions& own)
 {
     if (finds_emitted(own, in.lumels, in.known))
-        return std::make_unique<DirectionsRadiosity>(in.device, *in.world, *in.host, in.lumels, own,
-                                                     limits.target_error, in.known, in.parts);
+        return std::make_unique<DirectionsRadiosity>(in.device, *in.world, *in.scene, in.lumels,
+                                                     own, limits.target_error, in.known, in.parts);
     return std::make_unique<GlobalDirections>(in.device, *in.world, in.lumels, own, in.known);
 }
 
@@ -67,7 +67,7 @@ std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits& limits
 std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits& limits,
                                const MatrixOptions& own)
 {
-    return std::make_unique<MatrixRadiosity>(in.device, *in.world, *in.host, in.lumels, in.near,
+    return std::make_unique<MatrixRadiosity>(in.device, *in.world, *in.scene, in.lumels, in.near,
                                              own, limits.target_error, in.known);
 }
 

@@ -10,7 +10,7 @@ namespace {
 using support::LumelError;
 using support::Solved;
 
-std::vector<glm::vec3> path_traced(const Prepared& world, int samples)
+std::vector<glm::vec3> path_traced(const SolveScene& world, int samples)
 {
     return reference_irradiance(world.scene, world.rays, world.lumels,
                                 {.samples_per_lumel = samples, .seed = 99});
@@ -26,7 +26,7 @@ struct Cornell {
                                            {.samples_per_lumel = 2048, .seed = 99 + h});
         truth = support::mean_of(half[0], half[1]);
     }
-    Prepared world;
+    SolveScene world;
     std::vector<glm::vec3> half[2];
     std::vector<glm::vec3> truth;
 };
@@ -139,7 +139,7 @@ TEST(CornellBox, OtherBatchesGiveTheSameAnswer)
 // The papers' plain iteration needs far more shooters, and gets to the same place.
 TEST(CornellBox, ThePapersIterationConvergesToTheSameAnswer)
 {
-    const Prepared small(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
+    const SolveScene small(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
     const std::vector<glm::vec3> truth = path_traced(small, 1024);
     const auto error = [&](std::uint64_t shots) {
         const Solved solved = support::solve_scene(
@@ -157,7 +157,7 @@ TEST(CornellBox, ThePapersIterationConvergesToTheSameAnswer)
 // Each texel's light is less noisy from seed to seed if the shooters are larger.
 TEST(CornellBox, MergedTexelsLeaveLessNoise)
 {
-    const Prepared small(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
+    const SolveScene small(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
     const auto noise = [&](std::uint32_t merge) {
         double square = 0.0;
         std::vector<glm::vec3> before;
@@ -184,7 +184,7 @@ TEST(CornellBox, MergedTexelsLeaveLessNoise)
 
 TEST(CentreRule, AgreesWithAReferenceOfTheSameRule)
 {
-    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
+    const SolveScene world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
     const auto truth =
         reference_irradiance(world.scene, world.rays, world.lumels,
                              {.samples_per_lumel = 2048, .seed = 5, .rule = SampleRule::centre});
@@ -215,8 +215,8 @@ INSTANTIATE_TEST_SUITE_P(By, EveryProjector, testing::ValuesIn(projectors()),
 TEST_P(EveryProjector, GivesByHemispheresTheAnswerOfHemicubes)
 {
     const MethodInfo& method = method_of(GetParam());
-    const Prepared world(read_gltf(support::scene_path("cornell-box"), method.materials),
-                         AtlasOptions{.size = 64});
+    const SolveScene world(read_gltf(support::scene_path("cornell-box"), method.materials),
+                           AtlasOptions{.size = 64});
     const bool glossy = method.materials == MaterialModel::glossy;
     SolverOptions options{
         .method = method.defaults(), .max_shots = glossy ? 16384u : 4096u, .target_error = 0.0};
@@ -236,7 +236,7 @@ struct TwoRooms {
           truth(path_traced(world, 4096))
     {
     }
-    Prepared world;
+    SolveScene world;
     std::vector<glm::vec3> truth;
 };
 

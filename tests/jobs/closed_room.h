@@ -15,8 +15,7 @@ inline double mean_in_closed_room(float albedo, const SolverOptions& options)
     const std::vector<Quad> quads(walls.begin(), walls.end());
     HandMade room = make_quads(quads);
     const Atlas atlas = lay_out(room, quads);
-    const RayScene rays(room.scene);
-    const Solved solved = solve_scene(room.scene, rays, room.lumels, options, &atlas);
+    const Solved solved = solve_scene(SolveScene(room.scene, atlas, room.lumels), options);
     double light = 0.0, area = 0.0;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
         light += double(room.lumels.lumels[i].area) * double(solved.irradiance[i].g);

@@ -93,7 +93,7 @@ struct Running {
         return solver.eye_radiance();
     }
 
-    Prepared world;
+    SolveScene world;
     Lumels lumels;
     GlossyOptions options;
     support::Resident resident;
@@ -244,7 +244,7 @@ struct Turned {
                                                     std::span<const glm::vec3>{}, &particles);
     }
 
-    Prepared world;
+    SolveScene world;
     GlossyOptions options;
     support::Resident resident;
     LobeParticles particles;

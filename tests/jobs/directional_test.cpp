@@ -52,7 +52,7 @@ Lit light_up(const Scene& scene, const RayScene& rays, const Lumels& lumels,
     return lit;
 }
 
-Lit light_up(const Prepared& world, const Effort& effort)
+Lit light_up(const SolveScene& world, const Effort& effort)
 {
     return light_up(world.scene, world.rays, world.lumels,
                     {.method = StochasticOptions{}, .max_shots = effort.solve, .target_error = 0.0},
@@ -83,7 +83,7 @@ std::vector<glm::vec3> tilted(const glm::vec3& normal, float degrees)
 
 // --- the files ---
 
-void expect_layers_give_the_map_back(const std::string& file, const Prepared& world, int layers,
+void expect_layers_give_the_map_back(const std::string& file, const SolveScene& world, int layers,
                                      double tolerance)
 {
     const Image map = read_exr(file);
@@ -122,7 +122,7 @@ void bake_cornell(const std::string& folder, Directional kind, bool half)
 TEST(DirectionalFiles, AtTheSurfaceNormalGiveTheLightmapBackAtEveryTexel)
 {
     const test::TemporaryFolder folder;
-    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 128});
+    const SolveScene world(support::scene_path("cornell-box"), AtlasOptions{.size = 128});
     for (const Directional kind : {Directional::sh1, Directional::sh2})
         for (const bool half : {false, true}) {
             SCOPED_TRACE(testing::Message() << "sh" << int(kind) << (half ? " half" : " float"));
@@ -154,7 +154,7 @@ TEST(DirectionalFiles, LeaveThePlainLightmapAsItIsWithoutThem)
 
 TEST(DirectionalLight, GivesBackTheIrradianceOfEveryMethodSchemeAndRule)
 {
-    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 32});
+    const SolveScene world(support::scene_path("cornell-box"), AtlasOptions{.size = 32});
     const std::vector<glm::vec3> normals = world_normals(world.scene, world.lumels);
     SolverOptions plain{.method = StochasticOptions{}, .max_shots = 128, .target_error = 0.0};
     SolverOptions paper = plain, centre = plain, glossy = plain;
@@ -174,7 +174,7 @@ TEST(DirectionalLight, GivesBackTheIrradianceOfEveryMethodSchemeAndRule)
 
 TEST(DirectionalLight, StopsEarlyWhenAskedTo)
 {
-    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 32});
+    const SolveScene world(support::scene_path("cornell-box"), AtlasOptions{.size = 32});
     const gpu::Device device;
     const World resident(device, world.scene, world.lumels);
     const std::vector<glm::vec3> irradiance(world.lumels.lumels.size(), glm::vec3(1.0f));
@@ -193,7 +193,7 @@ TEST(DirectionalLight, StopsEarlyWhenAskedTo)
 // agrees.
 TEST(DirectionalFurnace, IsTheHalfSphereOfUniformRadiance)
 {
-    const Prepared furnace(support::scene_path("furnace-0.5"), AtlasOptions{.size = 64});
+    const SolveScene furnace(support::scene_path("furnace-0.5"), AtlasOptions{.size = 64});
     const Lit lit = light_up(furnace, {8192, 8192});
     const std::vector<glm::vec3> normals = world_normals(furnace.scene, furnace.lumels);
     const double radiance = 2.0 / std::numbers::pi;
@@ -271,7 +271,7 @@ TEST(DirectionalDelta, IsLitLikeTheClosedFormAtTiltedNormals)
 /// where rays hit.
 class Looker {
 public:
-    Looker(const Prepared& world, const std::vector<glm::vec3>& irradiance)
+    Looker(const SolveScene& world, const std::vector<glm::vec3>& irradiance)
         : world_(world),
           places_(world.scene, world.rays, world.lumels),
           lumel_at_(world.lumels.coverage.size(), kNoLumel)
@@ -345,7 +345,7 @@ private:
         return lumel == kNoLumel ? glm::vec3(0.0f) : reflected_[lumel];
     }
 
-    const Prepared& world_;
+    const SolveScene& world_;
     WorldLumels places_;
     std::vector<std::uint32_t> lumel_at_;  ///< [height][width]
     std::vector<std::size_t> emitters_;
@@ -358,7 +358,7 @@ struct TiltedError {
     double least = 0.0;  ///< lowest irradiance, relative to that at the surface's normal
 };
 
-TiltedError tilted_error(const Prepared& world, const Lit& lit, float degrees)
+TiltedError tilted_error(const SolveScene& world, const Lit& lit, float degrees)
 {
     constexpr std::size_t kStep = 3;
     constexpr int kSide = 48;
@@ -397,7 +397,7 @@ TiltedError tilted_error(const Prepared& world, const Lit& lit, float degrees)
 // normal itself (the error of the solve).
 TEST(DirectionalCornellBox, AgreesWithRaysAtTiltedNormals)
 {
-    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
+    const SolveScene world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
     const Lit lit = light_up(world, {2048, directional_shots(2048)});
     const struct {
         float tilt;
@@ -495,7 +495,7 @@ TEST(DirectionalSky, OfOneRadianceComesFromStraightUp)
 }
 
 /// Irradiance of lumels at their normals tilted to eight sides, by paths: [chosen][8].
-std::vector<glm::vec3> tilted_truth(const Prepared& world, const std::vector<std::size_t>& chosen,
+std::vector<glm::vec3> tilted_truth(const SolveScene& world, const std::vector<std::size_t>& chosen,
                                     const std::vector<glm::vec3>& own_normals, float degrees)
 {
     constexpr int kSamples = 256;
@@ -546,7 +546,7 @@ TEST(DirectionalDaylight, OfARoomIsWhatPathsFindAtTiltedNormals)
     // From the west, through the window.
     LightOptions day;
     set_sun(day, "265,35");
-    const Prepared world(
+    const SolveScene world(
         read_scene(support::scene_path("two-rooms-window"), MaterialModel::diffuse, day),
         AtlasOptions{.size = 96});
     const SolverOptions options{.method = LinksOptions{}, .target_error = 0.01};

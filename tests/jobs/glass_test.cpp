@@ -54,7 +54,7 @@ class Glass : public testing::TestWithParam<SolverOptions> {};
 
 TEST_P(Glass, TintsTheFloorBelowIt)
 {
-    const Prepared room(lamp_over_pane_over_floor(), {.size = 64});
+    const SolveScene room(lamp_over_pane_over_floor(), {.size = 64});
     const glm::dvec3 truth =
         on_floor(room.lumels, reference_irradiance(room.scene, room.rays, room.lumels,
                                                    {.samples_per_lumel = 256}));
@@ -62,9 +62,8 @@ TEST_P(Glass, TintsTheFloorBelowIt)
     const NearField near = near_field_for(room.scene, room.rays, room.lumels, GetParam());
     const gpu::Device device;
     const World world(device, room.scene, room.lumels, &room.atlas);
-    const HostScene host{room.scene, room.rays, room.atlas};
     const auto solver = make_solver(
-        {.device = device, .world = &world, .lumels = room.lumels, .near = near, .host = &host},
+        {.device = device, .world = &world, .lumels = room.lumels, .near = near, .scene = &room},
         GetParam());
     EXPECT_TRUE(solve(*solver, GetParam()));
     const glm::dvec3 found = on_floor(room.lumels, solver->irradiance());

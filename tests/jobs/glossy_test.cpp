@@ -24,7 +24,7 @@ struct GlossySolution {
 
 GlossySolution solve_room(const GlossyRoom& room, std::uint64_t shots)
 {
-    Prepared furnace(support::scene_path("furnace-0.5"), AtlasOptions{.size = 64});
+    SolveScene furnace(support::scene_path("furnace-0.5"), AtlasOptions{.size = 64});
     for (Gloss& gloss : furnace.lumels.gloss)
         gloss = {glm::vec3(room.diffuse), glm::vec3(room.specular), room.shininess};
     const SolverOptions options{.method = GlossyOptions{}, .max_shots = shots, .target_error = 0.0};
@@ -73,7 +73,7 @@ TEST(ClosedGlossyRoom, WithoutGlossGlowsAsTheFurnace)
 
 TEST(GlossyCornellBox, OfDiffuseWallsAgreesWithTheDiffuseSolver)
 {
-    Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
+    SolveScene world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
     for (std::size_t i = 0; i < world.lumels.gloss.size(); ++i)
         world.lumels.gloss[i] = {world.lumels.lumels[i].albedo, glm::vec3(0.0f), 1.0f};
     const auto diffuse = support::solve_scene(

@@ -65,7 +65,7 @@ Scene plate_and_wall()
 }
 
 /// H [N] [lx] as bakes find it.
-std::vector<glm::vec3> solved(const Prepared& world, std::uint64_t shots)
+std::vector<glm::vec3> solved(const SolveScene& world, std::uint64_t shots)
 {
     const SolverOptions options{.method = GlossyOptions{}, .max_shots = shots, .target_error = 0.0};
     const gpu::Device device;
@@ -91,7 +91,7 @@ class GlossyScene : public testing::TestWithParam<Case> {};
 TEST_P(GlossyScene, HasTheMapThatPathsFindWithinTwoPerCent)
 {
     const Case& given = GetParam();
-    const Prepared world(given.make(), AtlasOptions{.size = given.size});
+    const SolveScene world(given.make(), AtlasOptions{.size = given.size});
     const auto truth = [&](std::uint32_t seed) {
         return reference_irradiance(world.scene, world.rays, world.lumels,
                                     {.samples_per_lumel = given.paths, .seed = seed});
@@ -134,7 +134,7 @@ TEST(IndirectLight, OfLampsSkyAndAShiningSurfaceIsWhatPathsFind)
     options.solver = {.method = GlossyOptions{}, .max_shots = 8192, .target_error = 0.0};
     const Setting setting(std::move(scene), device, options, stages);
     const std::vector<glm::vec3> found = solve_light(device, setting, options, stages)->irradiance;
-    const Prepared& world = setting.prepared;
+    const SolveScene& world = setting.prepared;
     const auto truth = [&](std::uint32_t seed) {
         return reference_irradiance(
             world.scene, world.rays, world.lumels,

@@ -75,7 +75,7 @@ void expect_alike(const char* what, double stated, double real)
 // Both figures, against the reference without its own noise.
 TEST_P(StatedOverKeptLinks, IsTheRealError)
 {
-    const Prepared world(GetParam().scene(), AtlasOptions{.size = kSide});
+    const SolveScene world(GetParam().scene(), AtlasOptions{.size = kSide});
     Light truth[2];
     for (std::uint32_t k = 0; k < 2; ++k)
         truth[k] = reference_irradiance(world.scene, world.rays, world.lumels,
@@ -105,7 +105,7 @@ TEST(ErrorOverKeptLinks, OfNoLightIsNotKnown)
     Scene scene = cornell_box();
     for (Material& material : scene.materials)
         material.emitted = glm::vec3(0.0f);
-    const Prepared world(std::move(scene), AtlasOptions{.size = 16});
+    const SolveScene world(std::move(scene), AtlasOptions{.size = 16});
     LinkRelighter light(world.scene, world.atlas, world.lumels, {.rays = 4});
     light.irradiance();
     EXPECT_LT(light.error().all, 0.0);

@@ -50,7 +50,7 @@ void expect_as_anew(const EditedScene& edit, const Kept& kept)
 {
     const KeptLightOptions options{.rays = 16, .seed = kept.links.seed};
     const StoredLinks mine = links_for(edit, kept.links);
-    const Prepared& now = edit.now;
+    const SolveScene& now = edit.now;
     LinkRelighter over(now.scene, now.atlas, now.lumels, options, &mine);
     LinkRelighter anew(now.scene, now.atlas, now.lumels, options);
     EXPECT_GT(over.links().traced().all(), 0u);

@@ -16,13 +16,13 @@ Scene planes_under_white_sky()
 }
 
 /// Five red planes below a white one, below the white one on top, which can see no red.
-const Prepared& planes()
+const SolveScene& planes()
 {
-    static const Prepared instance(planes_under_white_sky(), AtlasOptions{.size = 48});
+    static const SolveScene instance(planes_under_white_sky(), AtlasOptions{.size = 48});
     return instance;
 }
 
-std::vector<glm::vec3> gathered(const Prepared& world, Layers layers, int lookups = 1,
+std::vector<glm::vec3> gathered(const SolveScene& world, Layers layers, int lookups = 1,
                                 std::uint32_t slabs = 1)
 {
     const gpu::Device device;
@@ -113,7 +113,7 @@ TEST(Layers, MoreSlabsLeakLess)
 }
 
 /// How the solver cuts the directions of a scene.
-std::uint32_t slabs_of(const Prepared& world, int lookups)
+std::uint32_t slabs_of(const SolveScene& world, int lookups)
 {
     const gpu::Device device;
     const World resident(device, world.scene, world.lumels, &world.atlas);
@@ -128,8 +128,8 @@ TEST(Layers, AreCutAsTheirOverdrawAsksFor)
 {
     EXPECT_GT(slabs_of(planes(), 1), slabs_of(planes(), 3));
     EXPECT_GT(slabs_of(planes(), 3), 1u);
-    const Prepared plane(support::make_quads({{.double_sided = true}}).scene,
-                         AtlasOptions{.size = 32});
+    const SolveScene plane(support::make_quads({{.double_sided = true}}).scene,
+                           AtlasOptions{.size = 32});
     EXPECT_EQ(slabs_of(plane, 1), 1u);
 }
 

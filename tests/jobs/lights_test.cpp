@@ -18,7 +18,7 @@ double light_inside(Layers layers)
 {
     const Scene scene = read_scene(support::scene_path("sealed-box"), MaterialModel::diffuse,
                                    {.sky_color = glm::vec3(1e4f)});
-    const Prepared world(scene, AtlasOptions{.size = kSize});
+    const SolveScene world(scene, AtlasOptions{.size = kSize});
     const support::Solved solved = support::solve_scene(
         world, {.method = DirectionsOptions{.iteration = {Scheme::paper}, .layers = layers},
                 .max_shots = 1024,
@@ -69,13 +69,12 @@ struct City {
     support::Solved solve(const SolverOptions& options) const
     {
         const NearField near = near_field_for(world.scene, world.rays, lit, options);
-        const HostScene host{world.scene, world.rays, world.atlas};
         const auto solver = make_solver({.device = device,
                                          .world = &resident,
                                          .lumels = lit,
                                          .near = near,
                                          .known = direct,
-                                         .host = &host},
+                                         .scene = &world},
                                         options);
         EXPECT_TRUE(lumel::solve(*solver, options));
         support::Solved solved{solver->irradiance(), solver->state()};
@@ -90,7 +89,7 @@ struct City {
                                     [](const Lumel&) { return true; });
     }
 
-    Prepared world;
+    SolveScene world;
     gpu::Device device;
     World resident;
     std::vector<glm::vec3> direct;
@@ -129,10 +128,9 @@ TEST(City, TheEstimatedErrorIsHonest)
 
 TEST(GlobalDirections, ReturnDirectAndReflectedLightApart)
 {
-    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 32});
+    const SolveScene world(support::scene_path("cornell-box"), AtlasOptions{.size = 32});
     const gpu::Device device;
     const World resident(device, world.scene, world.lumels, &world.atlas);
-    const HostScene host{world.scene, world.rays, world.atlas};
     const SolverOptions options{
         .method = DirectionsOptions{}, .max_shots = 256, .target_error = 0.001};
     const auto sum_of = [&](Parts parts) {
@@ -140,7 +138,7 @@ TEST(GlobalDirections, ReturnDirectAndReflectedLightApart)
                                          .world = &resident,
                                          .lumels = world.lumels,
                                          .near = {},
-                                         .host = &host,
+                                         .scene = &world,
                                          .parts = parts},
                                         options);
         EXPECT_TRUE(lumel::solve(*solver, options));
@@ -157,11 +155,12 @@ TEST(GlobalDirections, ReturnDirectAndReflectedLightApart)
 // Most of the error is in the lumels that the patch of sun ends in.
 TEST(TwoRooms, SunThroughTheWindowIsAsPathTraced)
 {
-    const Prepared world(read_scene(support::scene_path("two-rooms-window"), MaterialModel::diffuse,
-                                    {.sky_color = glm::vec3(0.0f),
-                                     .sun = SunPosition{.azimuth = glm::radians(280.0),
-                                                        .elevation = glm::radians(35.0)}}),
-                         AtlasOptions{.size = kSize});
+    const SolveScene world(
+        read_scene(
+            support::scene_path("two-rooms-window"), MaterialModel::diffuse,
+            {.sky_color = glm::vec3(0.0f),
+             .sun = SunPosition{.azimuth = glm::radians(280.0), .elevation = glm::radians(35.0)}}),
+        AtlasOptions{.size = kSize});
     std::array<std::vector<glm::vec3>, 2> half;
     for (std::uint32_t h = 0; h < 2; ++h)
         half[h] = reference_irradiance(

@@ -51,16 +51,15 @@ TEST(Links, RefuseARoomThatAbsorbsNothing)
 /// Large enough for passes of several steps.
 TEST(Links, GoOnFromTheStateAfterAnyStepToTheSameLight)
 {
-    const Prepared world(support::scene_path("cornell-box"), {.size = 192});
+    const SolveScene world(support::scene_path("cornell-box"), {.size = 192});
     const SolverOptions options = links(0.02);
     const support::Resident resident(world.scene, world.rays, world.lumels, options, &world.atlas);
-    const HostScene host{world.scene, world.rays, world.atlas};
     const auto make = [&] {
         return make_solver({.device = resident.device,
                             .world = &resident.world,
                             .lumels = world.lumels,
                             .near = resident.near,
-                            .host = &host},
+                            .scene = &world},
                            options);
     };
     std::vector<std::string> states;
@@ -104,14 +103,14 @@ std::string moved_file(const test::TemporaryFolder& folder, double metres)
 TEST(Links, LightASceneFarAwayAsTheyDoHere)
 {
     const AtlasOptions options{.size = 48};
-    const Prepared near(support::scene_path("cornell-box"), options);
+    const SolveScene near(support::scene_path("cornell-box"), options);
     const Solved there = support::solve_scene(near, links(0.05));
     const std::vector<glm::vec3> truth =
         reference_irradiance(near.scene, near.rays, near.lumels, {.samples_per_lumel = 16});
     const auto all = [](const Lumel&) { return true; };
     const test::TemporaryFolder folder;
     for (const double metres : {1e3, 1e4, 1e5, 1e6}) {
-        const Prepared far(moved_file(folder, metres), options);
+        const SolveScene far(moved_file(folder, metres), options);
         ASSERT_EQ(far.lumels.lumels.size(), near.lumels.lumels.size());
         const Solved solved = support::solve_scene(far, links(0.05));
         const support::LumelError apart =
@@ -129,7 +128,7 @@ TEST(Links, LightASceneFarAwayAsTheyDoHere)
 
 TEST(Links, GiveTheSameBytesOnAnyNumberOfThreads)
 {
-    const Prepared world(support::scene_path("two-rooms"), {.size = 48});
+    const SolveScene world(support::scene_path("two-rooms"), {.size = 48});
     const Solved many = support::solve_scene(world, links(0.05));
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const Solved alone = support::solve_scene(world, links(0.05));
@@ -156,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(Of, StatedByLinks,
 // Both figures, against the reference without its own noise.
 TEST_P(StatedByLinks, IsTheRealError)
 {
-    const Prepared world(support::scene_path(GetParam().scene), {.size = GetParam().size});
+    const SolveScene world(support::scene_path(GetParam().scene), {.size = GetParam().size});
     std::vector<glm::vec3> truth[2];
     for (std::uint32_t k = 0; k < 2; ++k)
         truth[k] = reference_irradiance(world.scene, world.rays, world.lumels,

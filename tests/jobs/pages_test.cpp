@@ -12,7 +12,7 @@
 
 #include "../scene/gltf_builder.h"
 #include "../support/temporary_folder.h"
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "base/core/files.h"
 #include "base/images/image_files.h"
 #include "jobs/bake/bake.h"

@@ -24,7 +24,7 @@ GlossyOptions papers(std::uint32_t seed = 1)
 
 TEST(PapersGlossyIteration, AveragesAllIterationsAlike)
 {
-    const Prepared world(
+    const SolveScene world(
         read_gltf(support::scene_path("glossy-cornell-box"), MaterialModel::glossy),
         AtlasOptions{.size = 32});
     GlossyOptions options = papers();
@@ -50,9 +50,9 @@ TEST(PapersGlossyIteration, AveragesAllIterationsAlike)
 }
 
 /// The furnace, whose walls emit 1 lm/m², of one material.
-struct Furnace : Prepared {
+struct Furnace : SolveScene {
     explicit Furnace(const Gloss& material)
-        : Prepared(support::scene_path("furnace-0.5"), AtlasOptions{.size = 64})
+        : SolveScene(support::scene_path("furnace-0.5"), AtlasOptions{.size = 64})
     {
         for (Gloss& gloss : lumels.gloss)
             gloss = material;
@@ -66,7 +66,7 @@ struct Square {
     std::vector<std::size_t> lumels;
 };
 
-std::vector<Square> squares_of(const Prepared& world, std::uint32_t merge)
+std::vector<Square> squares_of(const SolveScene& world, std::uint32_t merge)
 {
     const WorldLumels standing(world.scene, world.rays, world.lumels);
     std::map<std::array<std::uint32_t, 3>, Square> squares;
@@ -89,7 +89,7 @@ std::vector<Square> squares_of(const Prepared& world, std::uint32_t merge)
 }
 
 /// H [N] by Eq. (2) with (8), all shooters and no chance, in a box that hides nothing.
-std::vector<double> summed(const Prepared& world, std::uint32_t merge, double albedo)
+std::vector<double> summed(const SolveScene& world, std::uint32_t merge, double albedo)
 {
     const WorldLumels standing(world.scene, world.rays, world.lumels);
     const std::vector<Square> squares = squares_of(world, merge);

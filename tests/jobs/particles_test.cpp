@@ -32,7 +32,7 @@ struct GlossyFurnace {
         return particles.carry(emission_of(world.lumels), {}, 200000, seed);
     }
 
-    Prepared world;
+    SolveScene world;
 };
 
 class ParticlesOfShininess : public testing::TestWithParam<float> {};
@@ -71,7 +71,7 @@ TEST(Particles, OfOneSeedBringTheSameBytes)
 TEST(Particles, AreNotNeededWithoutLobes)
 {
     const GlossyFurnace furnace({glm::vec3(0.5f), glm::vec3(0.0f), 1.0f});
-    const Prepared& world = furnace.world;
+    const SolveScene& world = furnace.world;
     EXPECT_FALSE(LobeParticles(world.scene, world.atlas, world.rays, world.lumels).any());
     for (const glm::vec3& irradiance : furnace.carry(1).irradiance)
         EXPECT_EQ(irradiance, glm::vec3(0.0f));

@@ -52,7 +52,7 @@ glm::vec3 in_cell(std::size_t cell, const glm::vec2& at)
 
 /// Of direct light from irradiance alone: H(n) = Σ A_l c_lm Y_lm(n), so that
 /// c_lm = 1/A_l ∫ H(n) Y_lm(n) dn.
-Nine direct_by_paths(const Prepared& world, const glm::vec3& place, int samples)
+Nine direct_by_paths(const SolveScene& world, const glm::vec3& place, int samples)
 {
     const PathTracer tracer(world.scene, world.rays, 0, Parts::direct);
     const auto light =
@@ -75,7 +75,7 @@ Nine direct_by_paths(const Prepared& world, const glm::vec3& place, int samples)
 }
 
 /// Of what surfaces reflect, along rays from the place.
-Nine reflected_by_paths(const Prepared& world, const glm::vec3& place, int samples)
+Nine reflected_by_paths(const SolveScene& world, const glm::vec3& place, int samples)
 {
     constexpr int kMaxBounces = 1024;
     const PathTracer tracer(world.scene, world.rays, kMaxBounces);
@@ -106,7 +106,7 @@ Nine reflected_by_paths(const Prepared& world, const glm::vec3& place, int sampl
 }
 
 /// samples: of each cell, beside half as many for direct light.
-Nine coefficients_by_paths(const Prepared& world, const glm::vec3& place, int samples)
+Nine coefficients_by_paths(const SolveScene& world, const glm::vec3& place, int samples)
 {
     Nine sums = direct_by_paths(world, place, samples / 2);
     const Nine reflected = reflected_by_paths(world, place, samples);
@@ -116,7 +116,7 @@ Nine coefficients_by_paths(const Prepared& world, const glm::vec3& place, int sa
 }
 
 /// Bars: 2 % of band 0, in each channel.
-void expect_probes_like_paths(const Prepared& world, double error,
+void expect_probes_like_paths(const SolveScene& world, double error,
                               const std::vector<glm::vec3>& places, int samples)
 {
     const support::Solved solved =
@@ -143,14 +143,14 @@ void expect_probes_like_paths(const Prepared& world, double error,
 
 TEST(Probes, InTheCornellBoxAreWhatPathsFind)
 {
-    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 128});
+    const SolveScene world(support::scene_path("cornell-box"), AtlasOptions{.size = 128});
     expect_probes_like_paths(world, 0.01,
                              {{0.278f, 0.4f, 0.1f}, {0.1f, 0.2f, 0.45f}, {0.278f, 0.5f, 0.3f}}, 64);
 }
 
 TEST(Probes, InAFurnishedRoomAreWhatPathsFind)
 {
-    const Prepared world(support::scene_path("room"), AtlasOptions{.size = 256});
+    const SolveScene world(support::scene_path("room"), AtlasOptions{.size = 256});
     expect_probes_like_paths(world, 0.02,
                              {{1.5f, 1.3f, 2.0f}, {2.5f, 0.4f, 3.5f}, {1.2f, 2.3f, 0.5f}}, 64);
 }
@@ -160,7 +160,7 @@ TEST(Probes, InARoomUnderSunAndSkyAreWhatPathsFind)
     // From the west, through the window.
     LightOptions day;
     set_sun(day, "265,35");
-    const Prepared world(
+    const SolveScene world(
         read_scene(support::scene_path("two-rooms-window"), MaterialModel::diffuse, day),
         AtlasOptions{.size = 256});
     expect_probes_like_paths(world, 0.01,
@@ -173,7 +173,7 @@ TEST(Probes, InsideOfABlockAreRefusedWhetherItsMaterialIsDoubleSidedOrNot)
         SCOPED_TRACE(double_sided);
         Scene scene = test::paper_house(double_sided);
         test::add_bulb(scene);
-        const Prepared world(std::move(scene), AtlasOptions{.size = 128});
+        const SolveScene world(std::move(scene), AtlasOptions{.size = 128});
         const support::Solved solved =
             support::solve_scene(world, {.method = LinksOptions{}, .target_error = 0.02});
         const LightProbe probe(world.scene, world.rays, world.atlas, world.lumels,

@@ -281,7 +281,7 @@ TEST(LightSources, OfManyInstancesAreTheirMaterials)
 TEST(Senders, AddUpToTheLightOfALumel)
 {
     Lit lit;
-    const Prepared& world = lit.setting.prepared;
+    const SolveScene& world = lit.setting.prepared;
     const std::vector<glm::vec3>& irradiance = lit.solution->irradiance;
     double found = 0.0, solved = 0.0;
     bool sky = false, lamp = false, surface = false;

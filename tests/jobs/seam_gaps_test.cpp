@@ -29,7 +29,7 @@ TEST_P(Seams, AreSmallerOnceTheyAreMatched)
     LightOptions lights;
     if (GetParam().sky > 0.0f)
         lights.sky_color = glm::vec3(GetParam().sky);
-    const Prepared world(
+    const SolveScene world(
         read_scene(support::scene_path(GetParam().scene), MaterialModel::diffuse, lights),
         AtlasOptions{.size = GetParam().size});
     const support::Solved solved =

@@ -30,7 +30,7 @@ constexpr std::uint32_t kCeiling = 3, kFirstOfBlock = 6;  // instances
 
 const SolverOptions kLinks{.method = LinksOptions{}, .target_error = 0.01};
 
-double mean(const Prepared& world, const std::vector<glm::vec3>& light, std::uint32_t instance,
+double mean(const SolveScene& world, const std::vector<glm::vec3>& light, std::uint32_t instance,
             bool back)
 {
     double sum = 0.0, area = 0.0;
@@ -46,8 +46,8 @@ double mean(const Prepared& world, const std::vector<glm::vec3>& light, std::uin
 
 TEST(Sides, ShowIndoorLightIndoorsAndDaylightOutdoors)
 {
-    const Prepared house(house_with(true, true, true), AtlasOptions{.size = 96});
-    const Prepared room(house_with(false, true, false), AtlasOptions{.size = 96});
+    const SolveScene house(house_with(true, true, true), AtlasOptions{.size = 96});
+    const SolveScene room(house_with(false, true, false), AtlasOptions{.size = 96});
     const std::vector<glm::vec3> light = support::solve_scene(house, kLinks).irradiance,
                                  indoors = support::solve_scene(room, kLinks).irradiance;
     const Image map = finish_map(house.scene, house.atlas, house.lumels, light);
@@ -72,7 +72,7 @@ TEST(Sides, ShowIndoorLightIndoorsAndDaylightOutdoors)
     }
 }
 
-std::vector<char> charts_with_own_back(const Prepared& world, std::uint32_t first_instance,
+std::vector<char> charts_with_own_back(const SolveScene& world, std::uint32_t first_instance,
                                        std::uint32_t end_instance)
 {
     std::vector<char> own;
@@ -93,14 +93,14 @@ Scene house_under_sky()
 TEST(Sides, HaveTexelsOfTheirOwnWhereLightReachesBoth)
 {
     const std::vector<char> all(6, 1), none(6, 0), roof_and_sunny_wall = {1, 0, 0, 1, 0, 0};
-    const Prepared house(house_under_sky(), AtlasOptions{.size = 96});
+    const SolveScene house(house_under_sky(), AtlasOptions{.size = 96});
     EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), all);
     EXPECT_EQ(charts_with_own_back(house, kFirstOfBlock, 12), none) << "a closed solid";
-    const Prepared sunny(house_with(true, true, true), AtlasOptions{.size = 96});
+    const SolveScene sunny(house_with(true, true, true), AtlasOptions{.size = 96});
     EXPECT_EQ(charts_with_own_back(sunny, 0, kFirstOfBlock), roof_and_sunny_wall);
-    const Prepared dark(house_with(true, false, true), AtlasOptions{.size = 96});
+    const SolveScene dark(house_with(true, false, true), AtlasOptions{.size = 96});
     EXPECT_EQ(charts_with_own_back(dark, 0, kFirstOfBlock), none) << "no light inside";
-    const Prepared void_outside(house_with(true, true, false), AtlasOptions{.size = 96});
+    const SolveScene void_outside(house_with(true, true, false), AtlasOptions{.size = 96});
     EXPECT_EQ(charts_with_own_back(void_outside, 0, kFirstOfBlock), none) << "none outside";
 }
 
@@ -111,7 +111,7 @@ TEST(Sides, AreLitByOneLampAmongMany)
         street.lights.push_back(
             support::make_lamp(PunctualLight::Kind::point, kBulb,
                                {8.0f + float(i % 71), 2.0f, 8.0f + float(i / 71)}, {0, -1, 0}));
-    const Prepared house(street, AtlasOptions{.size = 96});
+    const SolveScene house(street, AtlasOptions{.size = 96});
     const std::vector<char> lit_outside = {0, 1, 0, 0, 0, 1};  // that face the street
     EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), lit_outside);
 }
@@ -130,7 +130,7 @@ TEST(Sides, OfASingleSidedPartHaveNoBack)
     other.texcoords[1] = {{0.6f, 0}, {1, 0}, {1, 1}, {0.6f, 1}};
     mesh.primitives.push_back(other);
     scene.sky = support::even_sky(glm::vec3(100.0f));
-    const Prepared house(scene, AtlasOptions{.size = 96});
+    const SolveScene house(scene, AtlasOptions{.size = 96});
     std::vector<char> own;
     for (const Surface& surface : house.atlas.surfaces)
         if (surface.instance == kCeiling) {
@@ -143,8 +143,8 @@ TEST(Sides, OfASingleSidedPartHaveNoBack)
 TEST(Sides, AreAsAskedFor)
 {
     const auto own = [](Sides sides) {
-        const Prepared house(house_with(true, true, true),
-                             AtlasOptions{.size = 96, .sides = sides});
+        const SolveScene house(house_with(true, true, true),
+                               AtlasOptions{.size = 96, .sides = sides});
         return charts_with_own_back(house, 0, 12);
     };
     EXPECT_EQ(own(Sides::both), std::vector<char>(12, 1));
@@ -154,8 +154,8 @@ TEST(Sides, AreAsAskedFor)
 
 TEST(Sides, OfTheFrontAloneShowTheFront)
 {
-    const Prepared house(house_with(true, true, true),
-                         AtlasOptions{.size = 64, .sides = Sides::front});
+    const SolveScene house(house_with(true, true, true),
+                           AtlasOptions{.size = 64, .sides = Sides::front});
     std::vector<glm::vec3> light;
     for (const Lumel& lumel : house.lumels.lumels)
         light.emplace_back(is_back(lumel) ? 2.0f : 1.0f);
@@ -166,7 +166,7 @@ TEST(Sides, OfTheFrontAloneShowTheFront)
 
 TEST(Sides, AreFoundAgainInTheSolutionAndOutsideOfItRefused)
 {
-    const Prepared house(house_under_sky(), AtlasOptions{.size = 96});
+    const SolveScene house(house_under_sky(), AtlasOptions{.size = 96});
     Lumels lumels = house.lumels;
     const std::vector<glm::vec3> light(lumels.lumels.size(), glm::vec3(1.0f));
     const test::TemporaryFolder folder;
@@ -184,7 +184,7 @@ TEST(Sides, AreFoundAgainInTheSolutionAndOutsideOfItRefused)
 
 TEST(Sides, ShareNoTexel)
 {
-    const Prepared house(house_under_sky(), AtlasOptions{.size = 96});
+    const SolveScene house(house_under_sky(), AtlasOptions{.size = 96});
     std::vector<int> lumels_at(house.lumels.coverage.size(), 0);
     for (const Lumel& lumel : house.lumels.lumels)
         if (lumel.instance < kFirstOfBlock)

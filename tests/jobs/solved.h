@@ -8,7 +8,7 @@
 
 #include "../support/source_folder.h"
 #include "atlas/finish/finish.h"
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "methods/methods.h"
 #include "solve/solver/solver.h"
 #include "truth/metrics.h"
@@ -56,27 +56,17 @@ struct Solved {
 };
 
 /// Solves on the default device; validation messages fail the test.
-inline Solved solve_scene(const Scene& scene, const RayScene& rays, const Lumels& lumels,
-                          const SolverOptions& options, const Atlas* atlas = nullptr)
+inline Solved solve_scene(const SolveScene& scene, const SolverOptions& options)
 {
-    const Resident resident(scene, rays, lumels, options, atlas);
+    const Resident resident(scene.scene, scene.rays, scene.lumels, options, &scene.atlas);
     const auto& [near, device, world] = resident;
-    const HostScene host{scene, rays, atlas ? *atlas : Atlas{}};
-    const auto solver = make_solver({.device = device,
-                                     .world = &world,
-                                     .lumels = lumels,
-                                     .near = near,
-                                     .host = atlas ? &host : nullptr},
-                                    options);
+    const auto solver = make_solver(
+        {.device = device, .world = &world, .lumels = scene.lumels, .near = near, .scene = &scene},
+        options);
     EXPECT_TRUE(solve(*solver, options));
     Solved solved{solver->irradiance(), solver->state()};
     EXPECT_EQ(device.validation_messages(), "");
     return solved;
-}
-
-inline Solved solve_scene(const Prepared& world, const SolverOptions& options)
-{
-    return solve_scene(world.scene, world.rays, world.lumels, options, &world.atlas);
 }
 
 /// Relative RMSE and bias over the chosen lumels, all channels, in terms of their own mean.

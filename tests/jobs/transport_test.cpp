@@ -10,7 +10,7 @@
 namespace lumel {
 namespace {
 
-Transport transport_of(const Prepared& world, std::uint32_t patches)
+Transport transport_of(const SolveScene& world, std::uint32_t patches)
 {
     MatrixOptions method;
     method.transport.patches = patches;
@@ -26,7 +26,7 @@ Transport transport_of(const Prepared& world, std::uint32_t patches)
 
 TEST(FormFactors, AddUpToOneInAClosedRoomAndAreReciprocal)
 {
-    const Prepared world(support::scene_path("furnace-0.5"), AtlasOptions{.size = 64});
+    const SolveScene world(support::scene_path("furnace-0.5"), AtlasOptions{.size = 64});
     const Transport transport = transport_of(world, 512);
     const std::size_t n = transport.patches.size();
     EXPECT_GT(n, 256u);
@@ -63,7 +63,7 @@ TEST(FormFactors, BalancedKeepTheSumsOfOpenRows)
 
 TEST(VoxelPatches, HoldAllOpenLumelsOnceAndAreTheSameAgain)
 {
-    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
+    const SolveScene world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
     const support::Resident resident(world.scene, world.rays, world.lumels,
                                      {.method = MatrixOptions{}});
     const auto make = [&] {
@@ -87,7 +87,7 @@ TEST(VoxelPatches, HoldAllOpenLumelsOnceAndAreTheSameAgain)
 // The patches of a bent wall face differently; two walls that share a voxel are two patches.
 TEST(VoxelPatches, FaceOneWay)
 {
-    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
+    const SolveScene world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
     const support::Resident resident(world.scene, world.rays, world.lumels,
                                      {.method = MatrixOptions{}});
     const VoxelPatches patches =
@@ -120,12 +120,11 @@ double error_of_means(const Lumels& lumels, const VoxelPatches& patches,
 
 TEST(MatrixRadiosity, AgreesWithALumelSolverOnItsPatches)
 {
-    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
+    const SolveScene world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
     const SolverOptions options{.method = MatrixOptions{}, .target_error = 0.003};
     const support::Resident resident(world.scene, world.rays, world.lumels, options);
-    MatrixRadiosity matrix(resident.device, resident.world, {world.scene, world.rays, world.atlas},
-                           world.lumels, resident.near, std::get<MatrixOptions>(options.method),
-                           options.target_error, {});
+    MatrixRadiosity matrix(resident.device, resident.world, world, world.lumels, resident.near,
+                           std::get<MatrixOptions>(options.method), options.target_error, {});
     ASSERT_TRUE(solve(matrix, options));
     ASSERT_NE(matrix.transport(), nullptr);
     const support::Solved lumels = support::solve_scene(
@@ -138,7 +137,7 @@ TEST(MatrixRadiosity, AgreesWithALumelSolverOnItsPatches)
 // With direct light from lumel to lumel it is 8 % off, and 4 % with all reflections from patches.
 TEST(MatrixRadiosity, LightsTheFurnishedRoomWithinTwoAndAHalfPerCent)
 {
-    const Prepared world(support::scene_path("room"), AtlasOptions{.size = 96});
+    const SolveScene world(support::scene_path("room"), AtlasOptions{.size = 96});
     const SolverOptions options{.method = MatrixOptions{}, .target_error = 0.01};
     const support::Solved solved = support::solve_scene(world, options);
     std::vector<glm::vec3> half[2];

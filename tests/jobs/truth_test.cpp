@@ -86,7 +86,7 @@ Glow furnace_glow(const std::string& name, double truth, double tolerance, Solve
                   const std::string& method)
 {
     const bool gathers = std::holds_alternative<GatherOptions>(options.method);
-    const Prepared furnace(support::scene_path(name), AtlasOptions{.size = gathers ? 32 : 64});
+    const SolveScene furnace(support::scene_path(name), AtlasOptions{.size = gathers ? 32 : 64});
     // Every direction lights every lumel.
     const std::uint64_t shooters = std::holds_alternative<DirectionsOptions>(options.method)
                                        ? 4096
@@ -155,12 +155,10 @@ double plate_error(const std::string& method, const support::Quad& emitter,
     const std::vector<support::Quad> quads = {dark_plate(), emitter};
     support::HandMade plates = support::make_quads(quads);
     const Atlas atlas = support::lay_out(plates, quads);
-    const RayScene rays(plates.scene);
     // Half of all directions lie behind a plate.
     const std::uint64_t shooters = method == "directions" ? 8192 : 4096;
-    const Solved solved =
-        support::solve_scene(plates.scene, rays, plates.lumels,
-                             for_direct_light(method, shooters, plates.lumels), &atlas);
+    const Solved solved = support::solve_scene(SolveScene(plates.scene, atlas, plates.lumels),
+                                               for_direct_light(method, shooters, plates.lumels));
     double square = 0.0, sum = 0.0;
     for (std::size_t i = plates.first[0]; i < plates.first[1]; ++i) {
         // A lumel is the mean over its area: average the closed form over it.
@@ -249,10 +247,9 @@ TEST_P(GrazingLight, FromALowLampMatchesThePointFormFactor)
     const std::vector<support::Quad> quads = {floor, below, lamp};
     support::HandMade place = support::make_quads(quads);
     const Atlas atlas = support::lay_out(place, quads);
-    const RayScene rays(place.scene);
     const Solved solved =
-        support::solve_scene(place.scene, rays, place.lumels,
-                             for_direct_light(GetParam(), 4096, place.lumels, {3, 96}), &atlas);
+        support::solve_scene(SolveScene(place.scene, atlas, place.lumels),
+                             for_direct_light(GetParam(), 4096, place.lumels, {3, 96}));
     double arrived[3] = {}, truth[3] = {};  // by metre of distance
     for (std::size_t i = place.first[0]; i < place.first[1]; ++i) {
         const glm::vec3 x = place.lumels.lumels[i].position;
@@ -273,8 +270,8 @@ TEST_P(SealedBox, StaysExactlyDarkInside)
 {
     const auto& [method, projection] = GetParam();
     const bool gathers = std::string(method) == "gather";
-    const Prepared world(support::scene_path("sealed-box"),
-                         AtlasOptions{.size = gathers ? 64 : 128});
+    const SolveScene world(support::scene_path("sealed-box"),
+                           AtlasOptions{.size = gathers ? 64 : 128});
     MethodOptions options = method_named(method);
     if (projection == Projection::hemisphere) {
         ASSERT_TRUE(set_option(options, "projection", "hemisphere"));
@@ -353,12 +350,10 @@ TEST_P(PatchworkSphere, LightsAllPatchesAlike)
         }
     support::HandMade sphere = support::make_quads(quads);
     const Atlas atlas = support::lay_out(sphere, quads);
-    const RayScene rays(sphere.scene);
     const Solved solved =
-        support::solve_scene(sphere.scene, rays, sphere.lumels,
+        support::solve_scene(SolveScene(sphere.scene, atlas, sphere.lumels),
                              with_shots({.method = method_named(GetParam())},
-                                        shots_like(GetParam(), 4096), sphere.lumels),
-                             &atlas);
+                                        shots_like(GetParam(), 4096), sphere.lumels));
     double by_albedo[2] = {}, by_emission[2] = {}, counts[4] = {};
     for (std::size_t i = 0; i < quads.size(); ++i) {
         const bool bright = quads[i].albedo.g > 0.5f, emits = quads[i].emission.g > 0.0f;

@@ -30,7 +30,7 @@ bool is_lit(const std::vector<glm::vec3>& irradiance)
 }
 
 /// False if the scene has no light sources; the reader has warned then.
-bool has_sources(const Prepared& prepared)
+bool has_sources(const SolveScene& prepared)
 {
     const std::vector<Lumel>& lumels = prepared.lumels.lumels;
     return has_lights(prepared.scene) ||

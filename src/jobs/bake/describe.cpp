@@ -8,7 +8,7 @@
 
 #include "atlas/near/buried.h"
 #include "atlas/prepare/lit_sides.h"
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "base/core/error.h"
 #include "base/json/json_file.h"
 #include "gpu/device.h"
@@ -58,7 +58,7 @@ public:
     {
     }
 
-    const Prepared& prepared() const { return prepared_; }
+    const SolveScene& prepared() const { return prepared_; }
     const Open& open() const { return open_; }
 
 private:
@@ -88,7 +88,7 @@ private:
     }
 
     Open open_;
-    Prepared prepared_;
+    SolveScene prepared_;
 };
 
 /// Limits of the default device; empty if there is none.
@@ -129,7 +129,7 @@ Json densities(const Scene& scene, const Atlas& atlas)
 
 Json facts(const SampledScene& sampled, const BakeOptions& options)
 {
-    const Prepared& prepared = sampled.prepared();
+    const SolveScene& prepared = sampled.prepared();
     const Scene& scene = prepared.scene;
     const Occluders occluders = find_occluders(scene, {}, &prepared.atlas);
     std::size_t emissive = 0, authored = 0, back = 0;

@@ -8,7 +8,7 @@ namespace {
 
 /// Filling and seams mix lumels of slightly different normals: matches the layers of covered texels
 /// to the map again.
-void match_texels(FinishedMaps& maps, const Prepared& prepared,
+void match_texels(FinishedMaps& maps, const SolveScene& prepared,
                   const std::vector<std::uint32_t>& shown)
 {
     const DirectionalFit fit(maps.layers.size() > std::size_t(coefficient_count(1)) ? 2 : 1);
@@ -34,7 +34,7 @@ void match_texels(FinishedMaps& maps, const Prepared& prepared,
 
 }  // namespace
 
-DirectionalMaps finish_directional(const Prepared& prepared,
+DirectionalMaps finish_directional(const SolveScene& prepared,
                                    const std::vector<glm::vec3>& irradiance,
                                    const std::vector<std::vector<glm::vec3>>& coefficients)
 {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "atlas/finish/finish.h"
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "base/images/image_files.h"
 
 namespace lumel {
@@ -19,7 +19,7 @@ struct DirectionalMaps {
 
 /// irradiance [N] [lx], coefficients [4 or 9][N] [cd/m²]. At every covered texel the layers
 /// reproduce the irradiance of the map for the shading normal of the lumel there.
-DirectionalMaps finish_directional(const Prepared& prepared,
+DirectionalMaps finish_directional(const SolveScene& prepared,
                                    const std::vector<glm::vec3>& irradiance,
                                    const std::vector<std::vector<glm::vec3>>& coefficients);
 

@@ -64,7 +64,7 @@ void warn_of_clipping(const Image& map, const std::string& name, Stages& stages)
 }  // namespace
 
 float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
-                const Prepared& prepared, Stages& stages, float exposure,
+                const SolveScene& prepared, Stages& stages, float exposure,
                 std::span<const Layer> directional)
 {
     if (half)
@@ -107,7 +107,7 @@ void outdate_other_pages(OutputFolder& folder, const Pages& pages)
 namespace {
 
 /// The preview [cd/m²]; empty, with a warning, if it cannot be rendered.
-std::optional<Image> draw_preview(const gpu::Device& device, const Prepared& prepared,
+std::optional<Image> draw_preview(const gpu::Device& device, const SolveScene& prepared,
                                   const Image& map, const View& view, int width)
 {
     try {
@@ -127,7 +127,7 @@ float exposure_of(const std::optional<Image>& picture, const Image& radiance)
 }
 
 /// The texture of scene-baked.glb [cd/m²]: as dense as the scene's own, within the limit.
-Image baked_texture(const BakeOptions& options, const Prepared& prepared, const Image& map,
+Image baked_texture(const BakeOptions& options, const SolveScene& prepared, const Image& map,
                     const Image& radiance, Stages& stages)
 {
     const int wanted = texture_density(prepared.scene, prepared.atlas);
@@ -143,7 +143,7 @@ Image baked_texture(const BakeOptions& options, const Prepared& prepared, const 
 }  // namespace
 
 WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
-                         const Prepared& prepared, const gpu::Device* device,
+                         const SolveScene& prepared, const gpu::Device* device,
                          const std::vector<glm::vec3>& irradiance,
                          const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages)
 {
@@ -178,7 +178,7 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
     return written;
 }
 
-BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
+BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const SolveScene& prepared,
                        const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages)
@@ -207,7 +207,7 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const P
 }
 
 BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
-                            const ReferenceOptions& reference, const Prepared& prepared,
+                            const ReferenceOptions& reference, const SolveScene& prepared,
                             const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages)
 {
     const float exposure =

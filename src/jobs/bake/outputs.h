@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "base/images/image_files.h"
 #include "gpu/device.h"
 #include "jobs/solve/bake_options.h"
@@ -37,7 +37,7 @@ struct Results {
 /// NAME-0.exr and so on. exposure: of the PNG [1/lx], 0: fitted to the map. Returns it. Warns of
 /// values that half precision cannot hold.
 float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
-                const Prepared& prepared, Stages& stages, float exposure = 0.0f,
+                const SolveScene& prepared, Stages& stages, float exposure = 0.0f,
                 std::span<const Layer> directional = {});
 
 /// Removes files of bakes with another number of pages from the folder.
@@ -53,19 +53,19 @@ struct WrittenLight {
 /// null: none. A preview that cannot be rendered is a warning. irradiance [N] [lx], coefficients:
 /// see DirectionalLight.
 WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
-                         const Prepared& prepared, const gpu::Device* device,
+                         const SolveScene& prepared, const gpu::Device* device,
                          const std::vector<glm::vec3>& irradiance,
                          const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages);
 
 /// Writes all files of `lumel bake`; the caller commits them. irradiance [N] [lx].
-BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
+BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const SolveScene& prepared,
                        const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages);
 
 /// Writes all files of `lumel reference`.
 BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
-                            const ReferenceOptions& reference, const Prepared& prepared,
+                            const ReferenceOptions& reference, const SolveScene& prepared,
                             const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages);
 
 }  // namespace lumel

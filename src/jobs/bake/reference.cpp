@@ -1,6 +1,6 @@
 #include "jobs/bake/reference.h"
 
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "jobs/bake/outputs.h"
 #include "jobs/solve/setting.h"
 #include "results/files/folder.h"
@@ -17,7 +17,7 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
     Scene scene = read_scene(scene_path, materials, options.lights);
     OutputFolder output(folder);
     stages.begin("charts");
-    const Prepared prepared(std::move(scene), options.atlas, stages.callback());
+    const SolveScene prepared(std::move(scene), options.atlas, stages.callback());
     tell_user(prepared);
     note_sizes(prepared, stages);
 

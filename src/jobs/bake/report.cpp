@@ -8,7 +8,7 @@
 
 namespace lumel {
 
-BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const Results& results,
+BakeRecord record_of(const BakeOptions& options, const SolveScene& prepared, const Results& results,
                      const WrittenLight& written)
 {
     BakeRecord record{.scene = file_of(prepared.scene),
@@ -52,7 +52,7 @@ std::optional<PreviewRow> preview_row(const WrittenLight& written, const Scene& 
                       .vertical_fov = glm::degrees(double(written.view->vertical_fov))};
 }
 
-Report bake_report(const BakeRecord& record, const Prepared& prepared, const gpu::Device& device,
+Report bake_report(const BakeRecord& record, const SolveScene& prepared, const gpu::Device& device,
                    const Solver& solver, const Results& results, const Stages& stages)
 {
     Report report = report_of(record);
@@ -64,7 +64,7 @@ Report bake_report(const BakeRecord& record, const Prepared& prepared, const gpu
 }
 
 Report reference_report(const BakeOptions& options, const ReferenceOptions& reference,
-                        const Prepared& prepared, bool stopped, const Stages& stages)
+                        const SolveScene& prepared, bool stopped, const Stages& stages)
 {
     Report report = report_on(prepared.scene, options.lights);
     add_facts(report, prepared, stages);

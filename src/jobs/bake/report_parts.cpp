@@ -70,7 +70,7 @@ void add_sizes(Report& report, const Scene& scene, const Atlas& atlas, const Lum
     report.notes = atlas.notes;
 }
 
-void add_facts(Report& report, const Prepared& prepared, const Stages& stages)
+void add_facts(Report& report, const SolveScene& prepared, const Stages& stages)
 {
     add_usage(report, prepared.scene, stages);
     add_sizes(report, prepared.scene, prepared.atlas, prepared.lumels);

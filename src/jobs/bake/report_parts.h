@@ -28,7 +28,7 @@ void add_usage(Report& report, const Scene& scene, const Stages& stages);
 void add_sizes(Report& report, const Scene& scene, const Atlas& atlas, const Lumels& lumels);
 
 /// Adds usage, sizes and notes.
-void add_facts(Report& report, const Prepared& prepared, const Stages& stages);
+void add_facts(Report& report, const SolveScene& prepared, const Stages& stages);
 
 /// Adds the name, driver and peak memory of the GPU.
 void add_device(Report& report, const gpu::Device& device);

@@ -133,7 +133,7 @@ TwoEstimates Correction::gather(const std::vector<Wanted>& wanted, ChangedLightO
 {
     options.seed = seed_of(baked_.solver.method);
     options.centre = rule_of(baked_.solver.method) == SampleRule::centre;
-    const Prepared &was = edit_.before, &is = edit_.now;
+    const SolveScene &was = edit_.before, &is = edit_.now;
     const SeenScene before{&was.scene, &was.rays, &was.lumels, &hits_before_, sent_before()};
     const SeenScene now{&is.scene, &is.rays, &is.lumels, &hits_now_, sent_now()};
     ChangedLight light =
@@ -186,7 +186,7 @@ glm::vec3 Correction::unsent(std::size_t i, const glm::vec3& light, const SentLi
 SignedLight Correction::carry(const std::vector<glm::vec3>& source, double error, UpdateRow& row)
 {
     watch_.begin("carrying");
-    const Prepared& is = edit_.now;
+    const SolveScene& is = edit_.now;
     const WorldLumels world(is.scene, is.rays, is.lumels);
     const LightCarrier carrier(is.rays, is.lumels, world, hits_now_);
     SignedLight carried =

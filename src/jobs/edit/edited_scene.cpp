@@ -127,14 +127,14 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
 }
 
 EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSolution& solution,
-                         const BakeRecord& baked, const Prepared::LayOut& atlas_before)
+                         const BakeRecord& baked, const SolveScene::LayOut& atlas_before)
     : EditedScene(std::move(scene_before), std::move(scene_now), solution, baked, atlas_before,
                   true)
 {
 }
 
 EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSolution& solution,
-                         const BakeRecord& baked, const Prepared::LayOut& atlas_before,
+                         const BakeRecord& baked, const SolveScene::LayOut& atlas_before,
                          bool as_a_bake)
     : before(std::move(scene_before), atlas_before,
              [&](const Scene&, const RayScene&, Lumels& lumels) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "jobs/edit/changed_light.h"
 #include "jobs/edit/matches.h"
 #include "jobs/edit/solution_file.h"
@@ -23,18 +23,18 @@ struct EditedScene {
     /// For a known original atlas: all lumels `now` are then as a bake makes them in that atlas.
     /// solution: to detect changes, as above.
     EditedScene(Scene before, Scene now, const StoredSolution& solution, const BakeRecord& baked,
-                const Prepared::LayOut& atlas_before);
+                const SolveScene::LayOut& atlas_before);
     EditedScene(const EditedScene&) = delete;
     EditedScene& operator=(const EditedScene&) = delete;
 
-    Prepared before;
+    SolveScene before;
     Matches matches;
     std::vector<Ball> balls;  ///< bounding spheres of moved objects
     /// [N now] Open fractions of lumels whose pieces still cover the whole; 1 for others. Light
     /// gathered over all of such a lumel is this fraction of that of its open part, as the rest
     /// receives none.
     std::vector<float> thinned;
-    Prepared now;
+    SolveScene now;
     /// [N now] The visible lumel of the same texel and side before, else kNoLumel.
     std::vector<std::uint32_t> same;
     /// [N now] Lumel before with unchanged position and open area, else kNoLumel.
@@ -42,7 +42,7 @@ struct EditedScene {
 
 private:
     EditedScene(Scene before, Scene now, const StoredSolution& solution, const BakeRecord& baked,
-                const Prepared::LayOut& atlas_before, bool as_a_bake);
+                const SolveScene::LayOut& atlas_before, bool as_a_bake);
     std::vector<float> bury_anew(const Scene& scene, const RayScene& rays,
                                  const StoredSolution& solution, Lumels& lumels);
 };

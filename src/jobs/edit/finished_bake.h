@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "jobs/edit/solution_file.h"
 #include "results/files/folder.h"
 #include "results/record/bake_record.h"
@@ -34,7 +34,7 @@ private:
 public:
     BakeRecord record;
     StoredSolution solution;
-    Prepared prepared;
+    SolveScene prepared;
     std::vector<glm::vec3> irradiance;  ///< [N] H as solved [lx]
 };
 

@@ -54,7 +54,7 @@ StoredLinks links_for(const EditedScene& edit, const StoredLinks& before)
     return renumbered(before, numbers);
 }
 
-KeptLinksSolver::KeptLinksSolver(const Prepared& prepared, const KeptLightOptions& options,
+KeptLinksSolver::KeptLinksSolver(const SolveScene& prepared, const KeptLightOptions& options,
                                  Stages& stages, const StoredLinks* kept)
 {
     stages.begin("links");

@@ -26,7 +26,7 @@ public:
     /// Traces links, or reuses valid ones of `kept`, in the stage "links", and lights them in the
     /// stage "solving". All arguments must outlive this. Throws Error{stopped} if the caller stops
     /// it.
-    KeptLinksSolver(const Prepared& prepared, const KeptLightOptions& options, Stages& stages,
+    KeptLinksSolver(const SolveScene& prepared, const KeptLightOptions& options, Stages& stages,
                     const StoredLinks* kept = nullptr);
 
     void step() override {}

@@ -28,8 +28,8 @@ struct StoredSolution {
 };
 
 /// R, G, B: H [lx] of fronts; A: the chart number, from 1; layer "back": H of backs; layer "open":
-/// Prepared::open of fronts in R, of backs in G; layer "shift": Atlas::back_shift of the chart in R
-/// and G, in B 1 for Atlas::shows_front. 32-bit float. irradiance [N], open [N]. Throws
+/// SolveScene::open of fronts in R, of backs in G; layer "shift": Atlas::back_shift of the chart in
+/// R and G, in B 1 for Atlas::shows_front. 32-bit float. irradiance [N], open [N]. Throws
 /// Error{output}.
 void write_solution(const std::string& path, const Lumels& lumels,
                     const std::vector<glm::vec3>& irradiance, const std::vector<float>& open);

@@ -23,7 +23,7 @@ constexpr double kPointsAlongPlane = 20.0;
 constexpr double kPercent = 100.0;
 
 /// The work plane, over the whole scene unless bounds are given.
-WorkPlane plane_of(const MeasureOptions& options, const Prepared& prepared)
+WorkPlane plane_of(const MeasureOptions& options, const SolveScene& prepared)
 {
     const glm::dvec3 low = glm::dvec3(prepared.rays.low()) + prepared.scene.origin;
     const glm::dvec3 high = glm::dvec3(prepared.rays.high()) + prepared.scene.origin;

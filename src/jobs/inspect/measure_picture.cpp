@@ -34,7 +34,7 @@ Image plane_picture(const PlaneGrid& grid, std::span<const Reading> readings)
     return false_colour(image, scale_for(lux));
 }
 
-Image preview_picture(const gpu::Device& device, const Prepared& prepared,
+Image preview_picture(const gpu::Device& device, const SolveScene& prepared,
                       std::span<const glm::vec3> irradiance, int width)
 {
     const View view = choose_view(prepared.scene, prepared.rays);

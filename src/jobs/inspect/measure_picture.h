@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "base/core/image.h"
 #include "gpu/device.h"
 #include "results/measure/work_plane.h"
@@ -16,7 +16,7 @@ Image plane_picture(const PlaneGrid& grid, std::span<const Reading> readings);
 
 /// The view of preview.png, `width` pixels wide without the legend; pixels without surfaces are
 /// grey. irradiance [N] [lx].
-Image preview_picture(const gpu::Device& device, const Prepared& prepared,
+Image preview_picture(const gpu::Device& device, const SolveScene& prepared,
                       std::span<const glm::vec3> irradiance, int width);
 
 }  // namespace lumel

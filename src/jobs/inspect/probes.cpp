@@ -19,7 +19,7 @@ constexpr std::size_t kProbesPerStep = 64, kProbesPerTask = 1;
 /// Version of the file format, for readers.
 constexpr int kVersion = 1;
 
-ProbeGrid grid_of(const ProbesOptions& options, const Prepared& prepared)
+ProbeGrid grid_of(const ProbesOptions& options, const SolveScene& prepared)
 {
     if (const auto& b = options.bounds)
         return probe_grid({(*b)[0], (*b)[1], (*b)[2]}, {(*b)[3], (*b)[4], (*b)[5]},
@@ -29,7 +29,7 @@ ProbeGrid grid_of(const ProbesOptions& options, const Prepared& prepared)
                       glm::dvec3(prepared.rays.high()) + origin, options.spacing);
 }
 
-void find_places(const std::string& scene, const ProbesOptions& options, const Prepared& prepared,
+void find_places(const std::string& scene, const ProbesOptions& options, const SolveScene& prepared,
                  ProbesSummary& summary)
 {
     if (options.spacing > 0.0) {
@@ -133,7 +133,7 @@ Json coefficients_of(const ProbeLight& light)
     return coefficients;
 }
 
-void check_probe_spacing(double spacing, const Prepared& prepared)
+void check_probe_spacing(double spacing, const SolveScene& prepared)
 {
     ProbesOptions options;
     options.spacing = spacing;

@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "base/json/json_file.h"
 #include "jobs/solve/bake_options.h"
 #include "results/files/folder.h"
@@ -44,7 +44,7 @@ struct ProbesSummary {
 Json coefficients_of(const ProbeLight& light);
 
 /// Throws Error{input} if a grid over this scene would have too many probes.
-void check_probe_spacing(double spacing, const Prepared& prepared);
+void check_probe_spacing(double spacing, const SolveScene& prepared);
 
 /// Computes probes for a bake that is not yet committed; writes kProbesFile, and adds the probes to
 /// scene.glb and scene-baked.glb. Uses a grid of this spacing, like the overload below. Throws

@@ -143,7 +143,7 @@ std::string report_of(const WhySummary& summary)
     return json_text(json);
 }
 
-WhySummary summary_of(const Prepared& prepared, std::uint32_t lumel, const Senders& senders)
+WhySummary summary_of(const SolveScene& prepared, std::uint32_t lumel, const Senders& senders)
 {
     const Lumel& there = prepared.lumels.lumels[lumel];
     const Instance& instance = prepared.scene.instances[there.instance];
@@ -166,7 +166,7 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
     Stages stages(progress);
     stages.begin("reading");
     const FinishedBake bake(folder);
-    const Prepared& prepared = bake.prepared;
+    const SolveScene& prepared = bake.prepared;
     const std::vector<glm::vec3>& irradiance = bake.irradiance;
     const Pages& pages = prepared.atlas.pages;
     const glm::ivec2 texel = texel_of(options, pages);

@@ -24,13 +24,13 @@ constexpr float kOpaque = 0.3f;
 constexpr float kMarkSize = 2.5f;
 constexpr glm::vec3 kMark{0.0f, 0.9f, 1.0f};
 
-glm::vec3 world_position(const Prepared& prepared, const Lumel& lumel)
+glm::vec3 world_position(const SolveScene& prepared, const Lumel& lumel)
 {
     return prepared.scene.instances[lumel.instance].transform * glm::vec4(lumel.position, 1.0f);
 }
 
 /// [N] Albedos for a render with white light: R 0…1 by density, G 1 at the mark.
-std::vector<glm::vec3> layers_of(const Prepared& prepared, std::span<const float> density,
+std::vector<glm::vec3> layers_of(const SolveScene& prepared, std::span<const float> density,
                                  std::uint32_t marked)
 {
     const float densest = *std::max_element(density.begin(), density.end());
@@ -57,7 +57,7 @@ glm::vec3 heat_color(float heat)
 
 }  // namespace
 
-Image why_picture(const gpu::Device& device, const Prepared& prepared,
+Image why_picture(const gpu::Device& device, const SolveScene& prepared,
                   std::span<const glm::vec3> irradiance, std::span<const float> density,
                   std::uint32_t lumel, int width)
 {

@@ -48,12 +48,12 @@ Relightable read_matrix(const std::string& folder, const BakeRecord& baked,
     return light;
 }
 
-Prepared read_world(const std::string& folder, const BakeRecord& baked,
-                    const StoredSolution& solution)
+SolveScene read_world(const std::string& folder, const BakeRecord& baked,
+                      const StoredSolution& solution)
 {
     Scene scene = read_scene((fs::path(folder) / kSceneFile).string(), MaterialModel::diffuse, {});
     scene.hash = baked.scene_hash;  // its vertices are split, its light is the same
-    return Prepared(
+    return SolveScene(
         std::move(scene), [&](const Scene& read, const RayScene&, const ProgressCallback&) {
             return written_atlas(read, baked.pages, float(baked.texels_per_metre), solution.charts);
         });
@@ -136,7 +136,7 @@ RelightSummary relight(const std::string& folder, const std::string& states_path
     const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
     Relightable light = read_matrix(folder, baked, solution);
     const std::vector<NamedState> states = read_states(states_path);
-    const Prepared world = read_world(folder, baked, solution);
+    const SolveScene world = read_world(folder, baked, solution);
     as_it_is.reset();
     const std::vector<std::uint32_t> numbers = numbers_in(light, world.lumels, folder);
     const gpu::Device device(options.device);

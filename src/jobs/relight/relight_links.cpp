@@ -74,7 +74,7 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
     Baked baked = read(folder);
     const std::vector<NamedState> states = read_states(states_path);
     const ProgressCallback progress = stages.callback();
-    Prepared world(
+    SolveScene world(
         std::move(baked.scene),
         [&](const Scene& scene, const RayScene&, const ProgressCallback&) {
             return atlas_of(baked.links, scene, baked.record.pages);

@@ -19,7 +19,7 @@ void add_picture(Report& report, const RenderOptions& options)
 
 }  // namespace
 
-Report picture_report(const RenderOptions& options, const Prepared& prepared,
+Report picture_report(const RenderOptions& options, const SolveScene& prepared,
                       const gpu::Device& device, const Solver& solver, const Results& results,
                       const Stages& stages)
 {

@@ -7,7 +7,7 @@
 namespace lumel {
 
 /// Report of an image of a solved scene. options.height: as rendered.
-Report picture_report(const RenderOptions& options, const Prepared& prepared,
+Report picture_report(const RenderOptions& options, const SolveScene& prepared,
                       const gpu::Device& device, const Solver& solver, const Results& results,
                       const Stages& stages);
 

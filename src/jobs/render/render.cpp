@@ -131,7 +131,7 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
 
 /// As published: looks up the texture C, the eye's accumulated image per lumel.
 std::vector<glm::vec3> look_up_accumulated(GlossyIllumination& solver, const LumelSight& sight,
-                                           const Seen& seen, const Prepared& prepared)
+                                           const Seen& seen, const SolveScene& prepared)
 {
     const SideMaps texture =
         finish_sides(prepared.scene, prepared.atlas, prepared.lumels,
@@ -191,7 +191,7 @@ Made path_trace(const Scene& scene, RenderOptions options, Stages& stages)
 /// A scene with its light, from which the next frame continues.
 struct Lit {
     /// lay_out: makes the atlas, or empty. given: the view, if known.
-    Lit(Scene scene, const Prepared::LayOut& lay_out, const std::optional<View>& given,
+    Lit(Scene scene, const SolveScene::LayOut& lay_out, const std::optional<View>& given,
         const gpu::Device& device, RenderOptions& options, Stages& stages)
         : setting(lay_out
                       ? std::make_unique<Setting>(std::move(scene), lay_out, device, options.bake,
@@ -225,7 +225,7 @@ Made shoot(Lit& frame, Lit* before, const gpu::Device& device, const RenderOptio
     if (!options.bake.dump.empty())
         dump.emplace(options.bake.dump, "dump");
     const Setting& setting = *frame.setting;
-    const Prepared& prepared = setting.prepared;
+    const SolveScene& prepared = setting.prepared;
     GlossyIllumination& solver = frame.solver;
     check_size(device, options);
     const bool papers = is_papers(options.bake.solver.method);
@@ -321,7 +321,7 @@ Report film(const Scene& scene, const std::string& path, const RenderOptions& op
         pose(posed, animation, double(f) / options.film.fps);
         RenderOptions own = of_frame(options, f);
         own.height = height;
-        Prepared::LayOut same;
+        SolveScene::LayOut same;
         if (atlas)
             same = [&](const Scene&, const RayScene&, const ProgressCallback&) { return *atlas; };
         auto frame = std::make_unique<Lit>(std::move(posed), same, chosen, device, own, stages);

@@ -64,7 +64,7 @@ void check_resume(const BakeOptions& options)
 }
 
 Checkpoint::Checkpoint(const std::string& folder, const BakeOptions& options,
-                       const Prepared& prepared)
+                       const SolveScene& prepared)
     : path_((fs::path(folder) / kCheckpointFile).string()),
       can_(method_of(options.solver.method).can_resume),
       resume_(options.resume),

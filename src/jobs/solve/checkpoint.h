@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "jobs/solve/bake_options.h"
 #include "results/record/report.h"
 #include "solve/solver/solver.h"
@@ -29,7 +29,7 @@ public:
         std::vector<ConvergencePoint> curve;
     };
 
-    Checkpoint(const std::string& folder, const BakeOptions& options, const Prepared& prepared);
+    Checkpoint(const std::string& folder, const BakeOptions& options, const SolveScene& prepared);
 
     /// With --resume: loads the checkpoint if there is one, and returns its status. Throws
     /// Error{input} if it is of other work or damaged.

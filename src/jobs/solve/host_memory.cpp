@@ -185,7 +185,7 @@ std::uint64_t triangle_count(const Scene& scene)
     return count;
 }
 
-HostMemory host_memory(const Prepared& prepared, const BakeOptions& options, bool shared)
+HostMemory host_memory(const SolveScene& prepared, const BakeOptions& options, bool shared)
 {
     const Atlas& atlas = prepared.atlas;
     const auto side = std::uint64_t(atlas.width), page = std::uint64_t(atlas.pages.side);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "jobs/solve/bake_options.h"
 
 namespace lumel {
@@ -44,7 +44,7 @@ struct HostMemory {
 };
 
 /// shared: the device is the CPU, so its memory is host memory.
-HostMemory host_memory(const Prepared& prepared, const BakeOptions& options, bool shared);
+HostMemory host_memory(const SolveScene& prepared, const BakeOptions& options, bool shared);
 
 /// Estimate before charts are built, for this number of lumels.
 HostMemory host_memory(const Scene& scene, std::size_t lumels, const BakeOptions& options,

@@ -22,8 +22,6 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                               Checkpoint* checkpoint = nullptr,
                               std::span<const glm::vec3> first_emission = {})
 {
-    const Prepared& prepared = setting.prepared;
-    const HostScene host{prepared.scene, prepared.rays, prepared.atlas};
     auto solution = std::make_unique<Solution>();
     solution->lumels = std::move(changed);
     const Lumels& lumels = solution->lumels ? *solution->lumels : setting.prepared.lumels;
@@ -34,7 +32,7 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                                     .known = known,
                                     .particles = particles,
                                     .first_emission = first_emission,
-                                    .host = &host,
+                                    .scene = &setting.prepared,
                                     .parts = parts},
                                    options);
     solution->run = solve_in_stage(*solution->solver, options, stages, checkpoint);

@@ -60,7 +60,7 @@ std::uint64_t GraphicsMemory::most() const
     return staging + world + std::max(direct_light, solver + directional);
 }
 
-GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occluders,
+GraphicsMemory graphics_memory(const SolveScene& prepared, const Occluders& occluders,
                                const BakeOptions& options)
 {
     const float diagonal = glm::length(prepared.rays.high() - prepared.rays.low());
@@ -125,7 +125,8 @@ void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLi
     refuse(shortage({}, host, side, limits));
 }
 
-void check_memory(const Prepared& prepared, const BakeOptions& options, const MemoryLimits& limits)
+void check_memory(const SolveScene& prepared, const BakeOptions& options,
+                  const MemoryLimits& limits)
 {
     const Occluders occluders = find_occluders(prepared.scene, {}, &prepared.atlas);
     refuse(shortage(graphics_memory(prepared, occluders, options),
@@ -133,7 +134,7 @@ void check_memory(const Prepared& prepared, const BakeOptions& options, const Me
                     limits));
 }
 
-std::uint64_t bytes_for_links(const Prepared& prepared, const BakeOptions& options,
+std::uint64_t bytes_for_links(const SolveScene& prepared, const BakeOptions& options,
                               const MemoryLimits& limits)
 {
     if (!uses_links(options) || limits.host == 0)

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "gpu/device.h"
 #include "jobs/solve/bake_options.h"
 #include "jobs/solve/host_memory.h"
@@ -18,7 +18,7 @@ struct GraphicsMemory {
 
     std::uint64_t most() const;
 };
-GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occluders,
+GraphicsMemory graphics_memory(const SolveScene& prepared, const Occluders& occluders,
                                const BakeOptions& options);
 
 /// Memory limits of a bake [bytes], 0: unknown.
@@ -41,10 +41,11 @@ std::string shortage(const GraphicsMemory& device, const HostMemory& host, int s
 /// Throws Error{device} with that sentence: before charts are built, as far as the options
 /// determine the atlas size; and afterwards, with all data.
 void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLimits& limits);
-void check_memory(const Prepared& prepared, const BakeOptions& options, const MemoryLimits& limits);
+void check_memory(const SolveScene& prepared, const BakeOptions& options,
+                  const MemoryLimits& limits);
 
 /// Memory left for links [bytes], for SolverOptions::max_bytes.
-std::uint64_t bytes_for_links(const Prepared& prepared, const BakeOptions& options,
+std::uint64_t bytes_for_links(const SolveScene& prepared, const BakeOptions& options,
                               const MemoryLimits& limits);
 
 }  // namespace lumel

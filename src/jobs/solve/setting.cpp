@@ -47,7 +47,7 @@ Scene in_stage(Scene scene, Stages& stages)
     return scene;
 }
 
-NearField near_field_of(const Prepared& prepared, const gpu::Device& device,
+NearField near_field_of(const SolveScene& prepared, const gpu::Device& device,
                         const BakeOptions& given, Stages& stages)
 {
     const SolverOptions& options = given.solver;
@@ -64,7 +64,7 @@ NearField near_field_of(const Prepared& prepared, const gpu::Device& device,
     return near;
 }
 
-std::optional<World> world_on(const gpu::Device& device, const Prepared& prepared,
+std::optional<World> world_on(const gpu::Device& device, const SolveScene& prepared,
                               const BakeOptions& options, Stages& stages)
 {
     stages.watch(device);
@@ -105,7 +105,7 @@ bool needs_world(const BakeOptions& options)
            !options.dump.empty();
 }
 
-std::optional<LobeParticles> particles_for(const Prepared& prepared, const SolverOptions& options)
+std::optional<LobeParticles> particles_for(const SolveScene& prepared, const SolverOptions& options)
 {
     std::optional<LobeParticles> particles;
     if (method_of(options.method).materials == MaterialModel::glossy && !is_papers(options.method))
@@ -124,7 +124,7 @@ Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& opti
 {
 }
 
-Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
+Setting::Setting(Scene scene, const SolveScene::LayOut& lay_out, const gpu::Device& device,
                  const BakeOptions& options, Stages& stages)
     : prepared(in_stage(std::move(scene), stages), lay_out, {}, stages.callback()),
       near(near_field_of(prepared, device, options, stages)),
@@ -209,7 +209,7 @@ void tell_warnings(const Scene& scene)
         log_warning(warning);
 }
 
-void note_sizes(const Prepared& prepared, Stages& stages)
+void note_sizes(const SolveScene& prepared, Stages& stages)
 {
     const std::vector<Lumel>& lumels = prepared.lumels.lumels;
     const auto buried = std::count_if(lumels.begin(), lumels.end(), [](const Lumel& lumel) {
@@ -220,7 +220,7 @@ void note_sizes(const Prepared& prepared, Stages& stages)
                             lumels.size(), prepared.lumels.pieces.size(), buried));
 }
 
-void tell_user(const Prepared& prepared)
+void tell_user(const SolveScene& prepared)
 {
     tell_warnings(prepared.scene);
     for (const std::string& note : prepared.atlas.notes)

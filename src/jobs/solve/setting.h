@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "jobs/solve/bake_options.h"
 #include "jobs/solve/stages.h"
 #include "methods/glossy/lobe_particles.h"
@@ -19,14 +19,15 @@ class Solver;
 void tell_warnings(const Scene& scene);
 
 /// Passes on the warnings of the scene's reader and of the atlas.
-void tell_user(const Prepared& prepared);
+void tell_user(const SolveScene& prepared);
 
 /// Notes the size of the world in lumels.
-void note_sizes(const Prepared& world, Stages& stages);
+void note_sizes(const SolveScene& world, Stages& stages);
 
 /// Particles for the light of lobes, for a solver that supports gloss; empty for
 /// Scheme::paper, whose shooters send it. The world must outlive them.
-std::optional<LobeParticles> particles_for(const Prepared& prepared, const SolverOptions& options);
+std::optional<LobeParticles> particles_for(const SolveScene& prepared,
+                                           const SolverOptions& options);
 
 /// True if the scene must be on the device to be solved: not for methods on the CPU.
 bool needs_world(const BakeOptions& options);
@@ -36,12 +37,12 @@ struct Setting {
     /// Throws Error.
     Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages);
     /// Uses the atlas that `lay_out` makes of the scene.
-    Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
+    Setting(Scene scene, const SolveScene::LayOut& lay_out, const gpu::Device& device,
             const BakeOptions& options, Stages& stages);
     Setting(const Setting&) = delete;
     Setting& operator=(const Setting&) = delete;
 
-    Prepared prepared;
+    SolveScene prepared;
     NearField near;
     std::optional<World> world;              ///< see needs_world
     std::optional<LobeParticles> particles;  ///< see particles_for

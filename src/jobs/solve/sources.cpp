@@ -11,7 +11,7 @@ std::vector<KnownSource> known_sources(const gpu::Device& device, const Setting&
                                        const BakeOptions& options, DirectLight& told,
                                        Stages& stages)
 {
-    const Prepared& prepared = setting.prepared;
+    const SolveScene& prepared = setting.prepared;
     if (has_lights(prepared.scene))
         stages.begin("sky and lamps");
     std::vector<KnownSource> sources;
@@ -67,16 +67,16 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
                                         const BakeOptions& options, Stages& stages)
 {
     auto solution = std::make_unique<Solution>();
-    const Prepared& prepared = setting.prepared;
+    const SolveScene& prepared = setting.prepared;
     std::vector<KnownSource> sources =
         known_sources(device, setting, options, solution->lamps, stages);
     if (stages.stopped())
         throw_stopped();
     stages.begin("solving");
-    auto solver = std::make_unique<RelightSolver>(
-        device, *setting.world, HostScene{prepared.scene, prepared.rays, prepared.atlas},
-        prepared.lumels, setting.near, std::get<MatrixOptions>(options.solver.method),
-        for_what_is_left(options.solver, stages).limits(), std::move(sources), options.parts);
+    auto solver = std::make_unique<RelightSolver>(device, *setting.world, prepared, setting.near,
+                                                  std::get<MatrixOptions>(options.solver.method),
+                                                  for_what_is_left(options.solver, stages).limits(),
+                                                  std::move(sources), options.parts);
     while (!solver->done() && stages.progress(solver->fraction(), solver->state().shots))
         solver->step();
     const bool needs_matrix = options.parts != Parts::direct;

@@ -8,7 +8,7 @@
 namespace lumel {
 
 BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const UpdateRow& row,
-                     const Prepared& prepared, const std::optional<WrittenLight>& written,
+                     const SolveScene& prepared, const std::optional<WrittenLight>& written,
                      bool interrupted)
 {
     baked.scene = file_of(prepared.scene);
@@ -31,7 +31,7 @@ BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const Updat
     return baked;
 }
 
-Report update_report(const BakeRecord& record, const UpdateRow& row, const Prepared& prepared,
+Report update_report(const BakeRecord& record, const UpdateRow& row, const SolveScene& prepared,
                      const gpu::Device* device, const Stages& stages)
 {
     Report report = report_of(record);

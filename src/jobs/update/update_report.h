@@ -11,11 +11,11 @@ namespace lumel {
 
 /// Record after a correction. written: if light was rewritten.
 BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const UpdateRow& row,
-                     const Prepared& prepared, const std::optional<WrittenLight>& written,
+                     const SolveScene& prepared, const std::optional<WrittenLight>& written,
                      bool interrupted);
 
 /// Report of a corrected bake. device: of the preview and of lights, or null.
-Report update_report(const BakeRecord& record, const UpdateRow& row, const Prepared& prepared,
+Report update_report(const BakeRecord& record, const UpdateRow& row, const SolveScene& prepared,
                      const gpu::Device* device, const Stages& stages);
 
 }  // namespace lumel

@@ -3,7 +3,6 @@
 // A few rays show which lumels see parts of sources. These start over with many, so that the result
 // does not depend on the first ones (no bias). Later passes add rays where neighbours are
 // uncertain.
-// few have shown decides nothing about the result. More go where neighbours are uncertain.
 
 #include "links/direct/direct.h"
 
@@ -99,21 +98,16 @@ struct DirectEstimator::Choice {
     float factor;
 };
 
-DirectEstimator::DirectEstimator(const LinkScene& place, const LightSources& sources,
-                                 const RayOrigins& starts, const std::vector<std::uint32_t>& order,
-                                 std::uint32_t seed)
-    : place_(place),
-      sources_(sources),
-      starts_(starts),
-      order_(order),
+DirectEstimator::DirectEstimator(const LinkWork& work, std::uint32_t seed)
+    : work_(work),
       seed_(seed),
-      half_{std::vector<glm::vec3>(order.size()), std::vector<glm::vec3>(order.size())},
-      taken_(order.size()),
-      more_(order.size()),
-      seen_(order.size()),
-      uncertain_(order.size()),
-      varying_(order.size(), kSame),
-      blocks_((order.size() + kBlock - 1) / kBlock)
+      half_{std::vector<glm::vec3>(work.order.size()), std::vector<glm::vec3>(work.order.size())},
+      taken_(work.order.size()),
+      more_(work.order.size()),
+      seen_(work.order.size()),
+      uncertain_(work.order.size()),
+      varying_(work.order.size(), kSame),
+      blocks_((work.order.size() + kBlock - 1) / kBlock)
 {
 }
 
@@ -122,10 +116,10 @@ DirectEstimator::DirectEstimator(const LinkScene& place, const LightSources& sou
 std::vector<DirectEstimator::RaysTo>
 DirectEstimator::share_out_rays(const glm::vec3& at, float size, std::vector<float>& rest) const
 {
-    rest.resize(sources_.count());
+    rest.resize(work_.sources.count());
     float total = 0.0f, most = 0.0f;
-    for (std::uint32_t s = 0; s < sources_.count(); ++s) {
-        total += rest[s] = sources_.sampling_weight(s, at, size);
+    for (std::uint32_t s = 0; s < work_.sources.count(); ++s) {
+        total += rest[s] = work_.sources.sampling_weight(s, at, size);
         most = std::max(most, rest[s]);
     }
     const auto halved = [&](float guess) {
@@ -134,7 +128,7 @@ DirectEstimator::share_out_rays(const glm::vec3& at, float size, std::vector<flo
     };
     std::vector<RaysTo> result;
     float sum = 0.0f;
-    for (std::uint32_t s = 0; s < sources_.count(); ++s) {
+    for (std::uint32_t s = 0; s < work_.sources.count(); ++s) {
         if (rest[s] >= kOwnRays * total) {
             result.push_back({.source = s, .halved = halved(rest[s])});
             rest[s] = 0.0f;
@@ -161,17 +155,17 @@ DirectEstimator::Choice DirectEstimator::choose(const std::vector<float>& runnin
 void DirectEstimator::look(const RayOrigin& start, std::size_t source, float factor,
                            const glm::vec2& at, std::uint32_t seed, ShadowRays& looks) const
 {
-    SourceSample sample = sources_.sample(source, start, at);
+    SourceSample sample = work_.sources.sample(source, start, at);
     if (factor != 1.0f) {
         sample.irradiance *= factor;
         sample.open.reset();
     }
-    looks.add(sample, ray_towards(sample, start, place_.rays.ray_offset(), seed));
+    looks.add(sample, ray_towards(sample, start, work_.scene.rays.ray_offset(), seed));
 }
 
 std::uint32_t DirectEstimator::looks_around() const
 {
-    return std::min(std::uint32_t(sources_.count()), kMaxSought);
+    return std::min(std::uint32_t(work_.sources.count()), kMaxSought);
 }
 
 void DirectEstimator::sample_lights(const RayOrigin& start, float size, std::uint32_t seed,
@@ -185,7 +179,7 @@ void DirectEstimator::sample_lights(const RayOrigin& start, float size, std::uin
     const auto add = [&](std::size_t source, float factor, std::uint32_t k) {
         look(start, source, factor, place_on(k), PathSamples::hash(seed, ~k), looks);
     };
-    const auto count = std::uint32_t(sources_.count());
+    const auto count = std::uint32_t(work_.sources.count());
     if (count <= kMaxSought) {
         for (std::uint32_t s = 0; s < count; ++s)
             add(s, 1.0f, s);
@@ -195,7 +189,7 @@ void DirectEstimator::sample_lights(const RayOrigin& start, float size, std::uin
     std::vector<float> running(count);
     float sum = 0.0f;
     for (std::uint32_t s = 0; s < count; ++s)
-        running[s] = sum += sources_.sampling_weight(s, start.position, size);
+        running[s] = sum += work_.sources.sampling_weight(s, start.position, size);
     for (std::uint32_t k = 0; k < kMaxSought; ++k) {
         const Choice choice =
             choose(running, (place_on(count + k).x + float(k)) / float(kMaxSought));
@@ -215,7 +209,8 @@ glm::vec3 DirectEstimator::light_of(const ShadowRays& looks, std::uint32_t first
 void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t more,
                                RayBatch& wave) const
 {
-    const bool many = more > 0, alone = !to.rest, small = alone && sources_.is_small(to.source);
+    const bool many = more > 0, alone = !to.rest,
+               small = alone && work_.sources.is_small(to.source);
     const std::uint32_t times = small ? kTimesToSmall : 1;
     const std::uint32_t begin = many ? times * taken_[i] >> to.halved : 0;
     const std::uint32_t rays = times * (many ? more >> to.halved : kFewRays);
@@ -226,7 +221,7 @@ void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t 
                               2 * to.source + (alone ? 0 : 1) + (many ? kManyStream : 0));
         for (std::uint32_t k = begin; k < begin + rays; ++k) {
             const PathSamples samples(stream, k);
-            const RayOrigin start = starts_.start(i, samples.stratified(kLumelPair));
+            const RayOrigin start = work_.starts.start(i, samples.stratified(kLumelPair));
             const Choice choice = alone ? Choice{to.source, 1.0f}
                                         : choose(*to.rest, samples.stratified(kLampChoicePair).x);
             look(start, choice.source, choice.factor, samples.stratified(kLampPair),
@@ -239,11 +234,11 @@ void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t 
 /// Adds the rays of lumel i in this pass.
 void DirectEstimator::add(std::uint32_t i, RayBatch& wave) const
 {
-    const Lumel& lumel = place_.lumels.lumels[i];
+    const Lumel& lumel = work_.lumels()[i];
     std::vector<float> rest;
     if (!(lumel.flags & kLumelBuried))
         for (const RaysTo& to :
-             share_out_rays(starts_.start(i, glm::vec2(0.5f)).position, lumel.size, rest))
+             share_out_rays(work_.starts.start(i, glm::vec2(0.5f)).position, lumel.size, rest))
             add_rays(i, to, more_[i], wave);
     wave.lumels.push_back(i);
     wave.groups_before.push_back(std::uint32_t(wave.groups.size()));
@@ -293,9 +288,9 @@ void DirectEstimator::find(const std::vector<std::uint32_t>& lumels, std::size_t
     RayBatch wave(begin);
     for (std::size_t k = begin; k < end; ++k) {
         add(lumels[k], wave);
-        if (wave.looks.size() < place_.caster.batch() && k + 1 < end)
+        if (wave.looks.size() < work_.caster().batch() && k + 1 < end)
             continue;
-        wave.looks.cast(place_.caster);
+        wave.looks.cast(work_.caster());
         take(wave);
         wave.begin(k + 1);
     }
@@ -329,7 +324,7 @@ void DirectEstimator::keep(std::uint32_t i, const Found& found, Block& block)
 
 bool DirectEstimator::fits() const
 {
-    const std::size_t count = order_.size();
+    const std::size_t count = work_.order.size();
     return half_[0].size() == count && half_[1].size() == count && taken_.size() == count &&
            more_.size() == count && seen_.size() == count && uncertain_.size() == count &&
            varying_.size() == count && done_ <= blocks_.size();
@@ -344,11 +339,11 @@ std::uint64_t DirectEstimator::bytes(std::size_t lumels, std::size_t varying)
 
 bool DirectEstimator::step()
 {
-    const std::vector<std::uint32_t>& list = first_pass_ ? order_ : many_;
-    if (first_pass_ && sources_.count() == 0)
+    const std::vector<std::uint32_t>& list = first_pass_ ? work_.order : many_;
+    if (first_pass_ && work_.sources.count() == 0)
         return false;
     const std::size_t last_block = std::min(done_ + kBlocksPerPass, blocks_.size());
-    const std::size_t grain = place_.caster.batch() / (kBlock * 2 * kFewRays);
+    const std::size_t grain = work_.caster().batch() / (kBlock * 2 * kFewRays);
     parallel_for(last_block - done_, grain, [&](std::size_t first, std::size_t last) {
         find(list, done_ + first, done_ + last);
     });
@@ -390,20 +385,20 @@ bool DirectEstimator::refine(double share, std::uint64_t most, const std::vector
     // The variance of one ray is about the lumel's variance × its rays. The sum of variances is
     // minimal if rays are proportional to deviations.
     const auto rays_of = [&](std::uint32_t i) { return double(std::max(taken_[i], kFewRays)); };
-    std::vector<double> variance(order_.size()), square(order_.size());
+    std::vector<double> variance(work_.order.size()), square(work_.order.size());
     double now = 0.0;
-    for (const std::uint32_t i : order_) {
+    for (const std::uint32_t i : work_.order) {
         const glm::vec3 apart = half_[0][i] - half_[1][i];
         now += variance[i] = weight[i] * double(glm::dot(apart, apart));
         square[i] = variance[i] * rays_of(i);
     }
-    const std::vector<double> deviation = deviation_nearby(square, order_, 1.0);
+    const std::vector<double> deviation = deviation_nearby(square, work_.order, 1.0);
     const double widest = *std::max_element(deviation.begin(), deviation.end());
     const auto enough = [&](double scale) {
         double left = 0.0;
         std::uint64_t rays = 0;
-        for (const std::uint32_t i : order_) {
-            if (place_.lumels.lumels[i].flags & kLumelBuried)
+        for (const std::uint32_t i : work_.order) {
+            if (work_.is_buried(i))
                 continue;
             const std::uint32_t more = wanted(i, scale * deviation[i]);
             rays += 2 * std::uint64_t(more);
@@ -419,9 +414,8 @@ bool DirectEstimator::refine(double share, std::uint64_t most, const std::vector
         (enough(middle) ? high : low) = middle;
     }
     many_.clear();
-    for (const std::uint32_t i : order_) {
-        more_[i] =
-            place_.lumels.lumels[i].flags & kLumelBuried ? 0 : wanted(i, high * deviation[i]);
+    for (const std::uint32_t i : work_.order) {
+        more_[i] = work_.is_buried(i) ? 0 : wanted(i, high * deviation[i]);
         if (more_[i] > 0)
             many_.push_back(i);
     }
@@ -457,16 +451,16 @@ bool DirectEstimator::differs(std::size_t i, double mean) const
 /// neighbour on their chart: few rays miss thin shadows.
 void DirectEstimator::mark_uncertain_hidden()
 {
-    const std::vector<std::uint32_t> by_side = lumels_by_side(place_.lumels);
-    const int width = place_.lumels.width, height = place_.lumels.height;
+    const std::vector<std::uint32_t> by_side = lumels_by_side(work_.scene.lumels);
+    const int width = work_.scene.lumels.width, height = work_.scene.lumels.height;
     std::vector<char> needs = uncertain_;
     const double mean = mean_of_all();
     for (std::size_t i = 0; i < needs.size(); ++i)
         if (differs(i, mean))
             needs[i] = 1;
-    parallel_for(place_.lumels.lumels.size(), 4096, [&](std::size_t first, std::size_t last) {
+    parallel_for(work_.lumels().size(), 4096, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            const Lumel& lumel = place_.lumels.lumels[i];
+            const Lumel& lumel = work_.lumels()[i];
             const int x = int(lumel.texel) % width, y = int(lumel.texel) / width;
             for (int dy = -1; dy <= 1; ++dy)
                 for (int dx = -1; dx <= 1; ++dx) {
@@ -476,7 +470,7 @@ void DirectEstimator::mark_uncertain_hidden()
                         std::size_t(y + dy) * std::size_t(width) + std::size_t(x + dx);
                     const std::uint32_t other =
                         by_side[2 * texel + (lumel.flags & kLumelBack ? 1 : 0)];
-                    if (other == kNoLumel || place_.lumels.lumels[other].chart != lumel.chart)
+                    if (other == kNoLumel || work_.lumels()[other].chart != lumel.chart)
                         continue;
                     if (uncertain_[other] || seen_[other] != seen_[i])
                         needs[i] = 1;
@@ -484,14 +478,15 @@ void DirectEstimator::mark_uncertain_hidden()
         }
     });
     // Charts can be small: also compares neighbours in space, which the order approximates.
-    for (std::size_t o = 0; o < order_.size(); ++o)
-        for (std::size_t n = o + 1; n < std::min(o + 1 + kComparedNeighbours, order_.size()); ++n) {
-            const std::uint32_t i = order_[o], j = order_[n];
+    for (std::size_t o = 0; o < work_.order.size(); ++o)
+        for (std::size_t n = o + 1; n < std::min(o + 1 + kComparedNeighbours, work_.order.size());
+             ++n) {
+            const std::uint32_t i = work_.order[o], j = work_.order[n];
             if (uncertain_[i] || uncertain_[j] || seen_[i] != seen_[j])
                 needs[i] = needs[j] = 1;
         }
-    for (const std::uint32_t i : order_)
-        if (needs[i] && !(place_.lumels.lumels[i].flags & kLumelBuried)) {
+    for (const std::uint32_t i : work_.order)
+        if (needs[i] && !work_.is_buried(i)) {
             many_.push_back(i);
             more_[i] = kManyRays;
         }

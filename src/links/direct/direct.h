@@ -11,32 +11,18 @@
 #include <memory>
 #include <vector>
 
-#include "atlas/near/hit_lumels.h"
 #include "lights/shadow_rays.h"
-#include "lights/sources.h"
-#include "rays/device/bundle_caster.h"
+#include "links/direct/link_work.h"
 
 namespace lumel {
-
-/// Rays and lumels of a scene.
-struct LinkScene {
-    const Scene& scene;
-    const Surfaces& surfaces;
-    const RayScene& rays;
-    const RayCaster& caster;      ///< over the same rays
-    const BundleCaster* bundles;  ///< for rays with shared directions; null: they use `caster`
-    const Atlas& atlas;
-    const Lumels& lumels;
-};
 
 /// Estimates direct irradiance [lx] in two independent halves, whose difference gives the variance.
 /// Lumels in which it varies also store it per cell. Call step() until it returns false, then read
 /// half(), mean() and at(). If refine() returns true, call step() again.
 class DirectEstimator {
 public:
-    /// All arguments must outlive this. order [N]: processing order of lumels.
-    DirectEstimator(const LinkScene& place, const LightSources& sources, const RayOrigins& starts,
-                    const std::vector<std::uint32_t>& order, std::uint32_t seed);
+    /// The work must outlive this.
+    DirectEstimator(const LinkWork& work, std::uint32_t seed);
 
     /// Memory [bytes]. varying: number of lumels stored per cell.
     static std::uint64_t bytes(std::size_t lumels, std::size_t varying);
@@ -126,10 +112,7 @@ private:
     void keep_cells();
     void mark_uncertain_hidden();
 
-    const LinkScene place_;
-    const LightSources& sources_;
-    const RayOrigins& starts_;
-    const std::vector<std::uint32_t>& order_;
+    const LinkWork& work_;
     std::uint32_t seed_;
     std::vector<glm::vec3> half_[2];
     std::vector<std::uint32_t> taken_;    ///< [N] rays of one half per source in later passes

@@ -6,7 +6,6 @@
 
 #include "rays/paths/samples.h"
 #include "solve/shooting/lumel_arrays.h"
-#include "solve/solver/inputs.h"
 
 namespace lumel {
 namespace {
@@ -21,28 +20,23 @@ constexpr std::uint64_t kMaxDirectRays = 2048;
 /// Random stream of these rays.
 constexpr std::uint32_t kDirectStream = 2;
 
-std::vector<std::uint32_t> as_they_come(std::size_t count)
+std::vector<std::uint32_t> as_they_come(const WorldLumels& world)
 {
-    std::vector<std::uint32_t> order(count);
+    std::vector<std::uint32_t> order(world.size());
     std::iota(order.begin(), order.end(), 0u);
     return order;
 }
 
 }  // namespace
 
-DirectRays::DirectRays(const HostScene& host, const Lumels& lumels, std::uint32_t seed,
-                       double target_error, std::span<const glm::vec3> known)
+DirectRays::DirectRays(const SolveScene& scene, std::uint32_t seed, double target_error,
+                       std::span<const glm::vec3> known,
+                       const std::vector<std::uint32_t>& instances)
     : target_error_(target_error),
       known_(irradiance_sum(known)),
-      surfaces_(host.scene),
-      caster_(cast_on_host(host.rays)),
-      place_{host.scene, surfaces_, host.rays, *caster_, nullptr, host.atlas, lumels},
-      world_(host.scene, host.rays, lumels),
-      cells_(world_),
-      starts_(world_, &cells_, host.rays.ray_offset(), false),
-      sources_(dark_, surfaces_, glm::distance(host.rays.low(), host.rays.high())),
-      order_(as_they_come(lumels.lumels.size())),
-      finder_(place_, sources_, starts_, order_, PathSamples::hash(seed, kDirectStream))
+      work_(scene, {cast_on_host(scene.rays)}, SampleRule::area, as_they_come,
+            {.only_surfaces = true, .instances = instances}),
+      finder_(work_, PathSamples::hash(seed, kDirectStream))
 {
 }
 
@@ -57,8 +51,8 @@ void DirectRays::step()
     double share = kMinPassShare;
     if (target_error_ > 0.0 && state_.error > 0.0)
         share = std::clamp(std::pow(target_error_ / state_.error, 2.0), kMinPassShare, 1.0);
-    const std::vector<double> even(order_.size(), 1.0);
-    const std::uint64_t most = kMaxDirectRays * order_.size(), taken = finder_.rays();
+    const std::vector<double> even(work_.order.size(), 1.0);
+    const std::uint64_t most = kMaxDirectRays * work_.order.size(), taken = finder_.rays();
     state_.full = taken >= most || !finder_.refine(share, std::min(kMaxMore * taken, most), even);
 }
 
@@ -66,8 +60,8 @@ void DirectRays::step()
 void DirectRays::estimate()
 {
     double squares = 0.0, light = known_, count = 0.0;
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-        if (place_.lumels.lumels[i].flags & kLumelBuried)
+    for (std::size_t i = 0; i < work_.order.size(); ++i) {
+        if (work_.is_buried(i))
             continue;
         const glm::vec3 apart = 0.5f * (finder_.half(0)[i] - finder_.half(1)[i]);
         const glm::vec3 mean = finder_.mean(i);
@@ -84,7 +78,7 @@ void DirectRays::estimate()
 
 std::vector<glm::vec3> DirectRays::irradiance() const
 {
-    std::vector<glm::vec3> light(order_.size());
+    std::vector<glm::vec3> light(work_.order.size());
     for (std::size_t i = 0; i < light.size(); ++i)
         light[i] = finder_.mean(i);
     return light;

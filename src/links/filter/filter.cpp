@@ -32,16 +32,15 @@ void take(const glm::vec3& a, const glm::vec3& b, const glm::vec3& one, const gl
 
 }  // namespace
 
-ChartFilter::ChartFilter(const LinkScene& place, const WorldLumels& world, const SubLumels& parts,
+ChartFilter::ChartFilter(const LinkWork& work, const SubLumels& parts,
                          const std::vector<float>& nearest)
-    : place_(place),
-      world_(world),
+    : work_(work),
       parts_(parts),
-      by_side_(lumels_by_side(place.lumels)),
+      by_side_(lumels_by_side(work.scene.lumels)),
       nearest_(nearest),
-      steps_(world.size())
+      steps_(work.world.size())
 {
-    parallel_for(world.size(), kLumelsPerTask, [&](std::size_t first, std::size_t last) {
+    parallel_for(work.world.size(), kLumelsPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             steps_[i] = find_steps(i);
     });
@@ -57,16 +56,16 @@ std::uint64_t ChartFilter::bytes(std::size_t lumels, std::size_t texels)
 /// Bits of the neighbours on the same chart and side across which the filter may step.
 std::uint8_t ChartFilter::find_steps(std::size_t i) const
 {
-    const Lumel& lumel = place_.lumels.lumels[i];
+    const Lumel& lumel = work_.lumels()[i];
     if ((lumel.flags & kLumelBuried) || parts_.is_cut(i))
         return 0;
-    const int width = place_.lumels.width, x = int(lumel.texel) % width,
+    const int width = work_.scene.lumels.width, x = int(lumel.texel) % width,
               y = int(lumel.texel) / width, side = lumel.flags & kLumelBack ? 1 : 0;
     unsigned steps = 0;
     for (unsigned s = 0; s < kSteps.size(); ++s) {
         const std::uint32_t j =
-            lit_lumel_at(place_.lumels, by_side_, x + kSteps[s].x, y + kSteps[s].y, side);
-        if (j != kNoLumel && place_.lumels.lumels[j].chart == lumel.chart && !parts_.is_cut(j) &&
+            lit_lumel_at(work_.scene.lumels, by_side_, x + kSteps[s].x, y + kSteps[s].y, side);
+        if (j != kNoLumel && work_.lumels()[j].chart == lumel.chart && !parts_.is_cut(j) &&
             may_step(i, j, std::min(nearest_[i], nearest_[j])))
             steps |= 1u << s;
     }
@@ -76,12 +75,13 @@ std::uint8_t ChartFilter::find_steps(std::size_t i) const
 /// True if no geometry separates two neighbours. nearest: distance to the nearest geometry [m].
 bool ChartFilter::may_step(std::size_t i, std::size_t j, float nearest) const
 {
-    const WorldLumel &a = world_[i], &b = world_[j];
+    const WorldLumel &a = work_.world[i], &b = work_.world[j];
     if (nearest > kMayStandBetween * glm::distance(a.centre, b.centre))
         return true;
-    const float ray_offset = std::max(kLift * std::max(a.size, b.size), place_.rays.ray_offset());
-    return place_.rays.sees(a.centre + ray_offset * a.normal, b.centre + ray_offset * b.normal,
-                            0.0f, std::uint32_t(i));
+    const float ray_offset =
+        std::max(kLift * std::max(a.size, b.size), work_.scene.rays.ray_offset());
+    return work_.scene.rays.sees(a.centre + ray_offset * a.normal, b.centre + ray_offset * b.normal,
+                                 0.0f, std::uint32_t(i));
 }
 
 /// Fills the tile, except variances. Returns false if it has no lumels.
@@ -92,17 +92,17 @@ bool ChartFilter::fill(FilterTile& tile, int left, int top, int side, const Solu
         for (int x = -kHalo; x < kTile + kHalo; ++x) {
             const std::size_t t = wide_at(x, y);
             const std::uint32_t i = tile.lumel[t] =
-                lit_lumel_at(place_.lumels, by_side_, left + x, top + y, side);
+                lit_lumel_at(work_.scene.lumels, by_side_, left + x, top + y, side);
             const bool is = i != kNoLumel;
             any = any || (is && x >= 0 && x < kTile && y >= 0 && y < kTile);
-            tile.chart[t] = is ? std::int32_t(place_.lumels.lumels[i].chart) : -1;
+            tile.chart[t] = is ? std::int32_t(work_.lumels()[i].chart) : -1;
             tile.steps[t] = is ? steps_[i] : std::uint8_t(0);
-            tile.size[t] = is ? world_[i].size : 0.0f;
+            tile.size[t] = is ? work_.world[i].size : 0.0f;
             tile.nearest[t] = is ? nearest_[i] : 0.0f;
             for (int c = 0; c < 3; ++c) {
                 const auto axis = std::size_t(c);
-                tile.centre[axis][t] = is ? world_[i].centre[c] : 0.0f;
-                tile.normal[axis][t] = is ? world_[i].normal[c] : 0.0f;
+                tile.centre[axis][t] = is ? work_.world[i].centre[c] : 0.0f;
+                tile.normal[axis][t] = is ? work_.world[i].normal[c] : 0.0f;
                 for (std::uint32_t k = 0; k < kSolutions; ++k)
                     tile.light[k][axis][t] = is ? found[k][i][c] : 0.0f;
             }
@@ -114,8 +114,8 @@ bool ChartFilter::fill(FilterTile& tile, int left, int top, int side, const Solu
 template <class Visit>
 void ChartFilter::for_each_tile(const Solutions& found, const Visit& visit) const
 {
-    const std::size_t across = std::size_t((place_.lumels.width + kTile - 1) / kTile),
-                      down = std::size_t((place_.lumels.height + kTile - 1) / kTile);
+    const std::size_t across = std::size_t((work_.scene.lumels.width + kTile - 1) / kTile),
+                      down = std::size_t((work_.scene.lumels.height + kTile - 1) / kTile);
     parallel_for(2 * across * down, 1, [&](std::size_t first, std::size_t last) {
         const auto tile = std::make_unique<FilterTile>();
         for (std::size_t n = first; n < last; ++n) {
@@ -129,7 +129,7 @@ void ChartFilter::for_each_tile(const Solutions& found, const Visit& visit) cons
 std::vector<Mean> ChartFilter::filter(const Solutions& found) const
 {
     std::array<std::vector<float>, kSolutions> variance;
-    variance.fill(std::vector<float>(world_.size()));
+    variance.fill(std::vector<float>(work_.world.size()));
     for_each_tile(found, [&](const FilterTile& tile) {
         Inner inner;
         for (std::uint32_t k = 0; k < kSolutions; ++k) {
@@ -139,8 +139,8 @@ std::vector<Mean> ChartFilter::filter(const Solutions& found) const
             });
         }
     });
-    const std::vector<float> none(world_.size(), 0.0f);
-    std::vector<Mean> result(kBells, {Estimates(world_.size(), glm::vec3(0.0f)), none, none});
+    const std::vector<float> none(work_.world.size(), 0.0f);
+    std::vector<Mean> result(kBells, {Estimates(work_.world.size(), glm::vec3(0.0f)), none, none});
     for_each_tile(found, [&](FilterTile& tile) {
         for (std::size_t t = 0; t < tile.lumel.size(); ++t)
             for (std::uint32_t k = 0; k < kSolutions; ++k)

@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "atlas/cells/cells.h"
-#include "links/direct/direct.h"
+#include "links/direct/link_work.h"
 #include "links/direct/solutions.h"
 #include "links/filter/mean.h"
 
@@ -24,8 +23,7 @@ class ChartFilter {
 public:
     /// All arguments must outlive this. nearest [N]: distance from each lumel to its nearest ray
     /// hit [m].
-    ChartFilter(const LinkScene& place, const WorldLumels& world, const SubLumels& parts,
-                const std::vector<float>& nearest);
+    ChartFilter(const LinkWork& work, const SubLumels& parts, const std::vector<float>& nearest);
 
     /// Memory of this and of the result of filter() [bytes].
     static std::uint64_t bytes(std::size_t lumels, std::size_t texels);
@@ -43,8 +41,7 @@ private:
     template <class Visit>
     void for_each_tile(const Solutions& found, const Visit& visit) const;
 
-    const LinkScene place_;
-    const WorldLumels& world_;
+    const LinkWork& work_;
     const SubLumels& parts_;
     std::vector<std::uint32_t> by_side_;  ///< [texels][2]
     const std::vector<float>& nearest_;

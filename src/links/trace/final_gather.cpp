@@ -30,17 +30,16 @@ FinalGather::FinalGather(const DirectRays& direct, std::vector<glm::vec3> receiv
                          std::uint32_t rays, std::uint32_t seed)
     : direct_(direct),
       sent_(std::move(received)),
-      parts_(direct.world(), direct.cells(), direct.place().rays, direct.place().lumels,
-             PathSamples::hash(seed, kPartStream)),
-      tracer_(direct.place(), direct.sources(), direct.world(), direct.starts(), direct.cells(),
-              parts_, direct.finder(), direct.order(), seed),
+      parts_(direct.work().world, direct.work().cells, direct.work().scene.rays,
+             direct.work().scene.lumels, PathSamples::hash(seed, kPartStream)),
+      tracer_(direct.work(), parts_, direct.finder(), seed),
       rounds_((rays + kGatherRays - 1) / kGatherRays),
       gathered_(parts_.count()),
       sum_(sent_.size(), glm::vec3(0.0f)),
       rays_(sent_.size(), 0)
 {
     for (std::size_t i = 0; i < sent_.size(); ++i)
-        sent_[i] *= direct.place().lumels.lumels[i].albedo;
+        sent_[i] *= direct.work().lumels()[i].albedo;
 }
 
 void FinalGather::step()
@@ -68,7 +67,7 @@ void FinalGather::take(std::size_t last)
         const std::size_t end = std::min((b + 1) * kLinkBlock, sent_.size());
         std::size_t row = 0;
         for (std::size_t n = b * kLinkBlock; n < end; ++n) {
-            const std::uint32_t i = direct_.order()[n];
+            const std::uint32_t i = direct_.work().order[n];
             for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p, ++row) {
                 rays_[i] += gathered_.rays[p];
                 sum_[i] += gathered_.reflected[p];

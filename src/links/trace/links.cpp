@@ -120,7 +120,7 @@ private:
 
 }  // namespace
 
-LinkRadiosity::LinkRadiosity(const gpu::Device& device, const HostScene& host, const Lumels& lumels,
+LinkRadiosity::LinkRadiosity(const gpu::Device& device, const SolveScene& scene,
                              const LinksOptions& options, const SolveLimits& limits, Parts parts)
     : options_(options),
       target_error_(limits.target_error),
@@ -128,16 +128,10 @@ LinkRadiosity::LinkRadiosity(const gpu::Device& device, const HostScene& host, c
       most_shots_(limits.max_shots),
       most_bytes_(limits.max_bytes),
       parts_wanted_(parts),
-      lumels_(lumels),
-      surfaces_(host.scene),
-      bundles_(bundles_for(device, host.rays, options.rays)),
-      caster_(caster_for(device, host.rays, options.rays)),
-      place_{host.scene, surfaces_, host.rays, *caster_, bundles_.get(), host.atlas, lumels},
-      world_(host.scene, host.rays, lumels),
-      cells_(world_),
-      starts_(world_, &cells_, host.rays.ray_offset(), options.rule == SampleRule::centre),
-      sources_(host.scene, surfaces_, glm::distance(host.rays.low(), host.rays.high())),
-      order_(order_in_space(world_))
+      work_(scene,
+            {.rays = caster_for(device, scene.rays, options.rays),
+             .bundles = bundles_for(device, scene.rays, options.rays)},
+            options.rule, order_in_space)
 {
 }
 
@@ -249,7 +243,7 @@ void LinkRadiosity::read_state(StateReader& reader)
 /// Throws if the state that was read is of other lumels or sub-lumels.
 void LinkRadiosity::check_sizes() const
 {
-    const std::size_t lumels = order_.size(), parts = parts_->count();
+    const std::size_t lumels = work_.order.size(), parts = parts_->count();
     const auto is = [](std::size_t size, std::size_t wanted) {
         return size == 0 || size == wanted;
     };
@@ -275,13 +269,11 @@ double LinkRadiosity::begun() const
 
 void LinkRadiosity::cut()
 {
-    parts_.emplace(world_, cells_, place_.rays, lumels_,
+    parts_.emplace(work_.world, work_.cells, work_.scene.rays, work_.scene.lumels,
                    PathSamples::hash(options_.seed, kPartStream));
-    direct_.emplace(place_, sources_, starts_, order_,
-                    PathSamples::hash(options_.seed, kDirectStream));
-    tracer_.emplace(place_, sources_, world_, starts_, cells_, *parts_, *direct_, order_,
-                    options_.seed);
-    solver_.emplace(lumels_, world_, *parts_, order_);
+    direct_.emplace(work_, PathSamples::hash(options_.seed, kDirectStream));
+    tracer_.emplace(work_, *parts_, *direct_, options_.seed);
+    solver_.emplace(work_.scene.lumels, work_.world, *parts_, work_.order);
     for (std::optional<LinkSet>& gathered : gathered_)
         gathered.emplace(parts_->count());
 }
@@ -289,12 +281,12 @@ void LinkRadiosity::cut()
 /// Traces a step of the round's rays.
 void LinkRadiosity::trace()
 {
-    const std::size_t blocks = bundles_ ? kBlocksPerDrawing : kBlocksPerStep;
+    const std::size_t blocks = work_.casters.bundles ? kBlocksPerDrawing : kBlocksPerStep;
     const std::size_t count =
         std::max(std::size_t(double(blocks * kFirstRays) / mean_rays_), std::size_t(1));
     const std::size_t last = std::min(traced_ + count, tracer_->blocks());
     const std::uint32_t side =
-        bundles_ && options_.interleaved == 0 ? kInterleaved : options_.interleaved;
+        work_.casters.bundles && options_.interleaved == 0 ? kInterleaved : options_.interleaved;
     for (std::uint32_t k = 0; k < kSolutions; ++k) {
         const std::uint32_t stream = kLinkStream + kSolutions * round_ + k;
         std::optional<SharedDirections> shared;
@@ -354,7 +346,7 @@ double LinkRadiosity::rays_that_fit() const
     for (const std::optional<LinkSet>& gathered : gathered_)
         taken += double(gathered->bytes());
     const double of_ray =
-        state_.shots > 0 ? taken / double(state_.shots) : double(order_.size()) * kLinkBytes;
+        state_.shots > 0 ? taken / double(state_.shots) : double(work_.order.size()) * kLinkBytes;
     const double starts = kSolutions * double(parts_->count()) * kPartBytes;
     return std::max(double(most_bytes_) - taken - starts, 0.0) / (kSolutions * of_ray);
 }
@@ -363,7 +355,7 @@ double LinkRadiosity::rays_that_fit() const
 /// between absolute and relative errors.
 std::vector<double> LinkRadiosity::weights() const
 {
-    std::vector<double> weight(order_.size(), 1.0);
+    std::vector<double> weight(work_.order.size(), 1.0);
     if (target_dark_error_ > 0.0)
         for (std::size_t i = 0; i < weight.size(); ++i) {
             const glm::vec3 all = arrived(i);
@@ -376,17 +368,17 @@ std::vector<double> LinkRadiosity::weights() const
 /// rays are uniform, since lumels whose rays have not found a light yet seem noiseless.
 void LinkRadiosity::share_out_rays()
 {
-    rays_.assign(order_.size(), std::uint16_t(std::lround(mean_rays_)));
+    rays_.assign(work_.order.size(), std::uint16_t(std::lround(mean_rays_)));
     if (state_.shots == 0)
         return;
     const std::vector<double> weight = weights();
-    std::vector<double> square(order_.size());
+    std::vector<double> square(work_.order.size());
     for (std::size_t i = 0; i < square.size(); ++i)
         square[i] = weight[i] * spread(indirect(i, 0), indirect(i, 1), indirect(i, 2));
-    const std::vector<double> deviation = deviation_nearby(square, order_, 0.0);
+    const std::vector<double> deviation = deviation_nearby(square, work_.order, 0.0);
     double mean = 0.0, lit = 0.0;
     for (std::size_t i = 0; i < deviation.size(); ++i)
-        if (!(lumels_.lumels[i].flags & kLumelBuried)) {
+        if (!work_.is_buried(i)) {
             mean += deviation[i];
             lit += 1.0;
         }
@@ -420,8 +412,8 @@ void LinkRadiosity::balance(std::size_t k)
         return;
     glm::dvec3 absorbed(0.0), reflected(0.0);
     double area = 0.0, albedo = 0.0;
-    for (std::size_t i = 0; i < lumels_.lumels.size(); ++i) {
-        const Lumel& lumel = lumels_.lumels[i];
+    for (std::size_t i = 0; i < work_.lumels().size(); ++i) {
+        const Lumel& lumel = work_.lumels()[i];
         if (lumel.flags & kLumelBuried)
             continue;
         const double a = double(lumel.area);
@@ -470,7 +462,7 @@ void LinkRadiosity::go_on()
 /// cost is minimal if they are in proportion to √(variance × cost).
 double LinkRadiosity::share_of_direct(const Errors& now) const
 {
-    const double of_rays = kCostOfLink * now.rays * double(state_.shots * order_.size());
+    const double of_rays = kCostOfLink * now.rays * double(state_.shots * work_.order.size());
     const double of_direct = now.direct * double(direct_->rays());
     const double root = std::sqrt(of_direct), sum = root + std::sqrt(of_rays);
     return sum > 0.0 ? std::clamp(root / sum, kMinShare, kMaxShare) : kMaxShare;
@@ -490,7 +482,7 @@ bool LinkRadiosity::refine_direct()
         cut(one.error * one.error, one.now);
     if (all.empty())
         cut(all_.rays + all_.direct, all_);
-    return share < 1.0 && direct_->refine(share, state_.shots * order_.size(), weights());
+    return share < 1.0 && direct_->refine(share, state_.shots * work_.order.size(), weights());
 }
 
 /// Irradiance by rays at a lumel in one solution, of the requested parts of light [lx].
@@ -530,7 +522,7 @@ glm::vec3 LinkRadiosity::indirect(std::size_t i, std::size_t k) const
 /// [N] Distance to the nearest ray hit of each lumel [m].
 std::vector<float> LinkRadiosity::nearest() const
 {
-    std::vector<float> nearest(lumels_.lumels.size(), std::numeric_limits<float>::max());
+    std::vector<float> nearest(work_.lumels().size(), std::numeric_limits<float>::max());
     for (std::size_t i = 0; i < nearest.size(); ++i)
         for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
             for (const std::optional<LinkSet>& gathered : gathered_)
@@ -543,14 +535,14 @@ void LinkRadiosity::combine()
 {
     Solutions found;
     for (std::size_t k = 0; k < kSolutions; ++k) {
-        found[k].resize(lumels_.lumels.size());
+        found[k].resize(work_.lumels().size());
         for (std::size_t i = 0; i < found[k].size(); ++i)
             found[k][i] = brought(i, k);
     }
     const std::vector<float> near = nearest();
     std::optional<ChartFilter> filter;
     if (options_.filter)
-        filter.emplace(place_, world_, *parts_, near);
+        filter.emplace(work_, *parts_, near);
     mean_ = mean_of(found, filter ? &*filter : nullptr);
 }
 
@@ -578,8 +570,8 @@ void LinkRadiosity::estimate()
         sums.count += 1.0;
     };
     const auto visit = [&](const auto& what) {
-        for (std::size_t i = 0; i < lumels_.lumels.size(); ++i)
-            if (!(lumels_.lumels[i].flags & kLumelBuried)) {
+        for (std::size_t i = 0; i < work_.lumels().size(); ++i)
+            if (!work_.is_buried(i)) {
                 const glm::vec3 all = arrived(i);
                 what(i, double(all.r + all.g + all.b));
             }
@@ -606,7 +598,7 @@ glm::vec3 LinkRadiosity::arrived(std::size_t i) const
 
 std::vector<glm::vec3> LinkRadiosity::irradiance()
 {
-    std::vector<glm::vec3> result(lumels_.lumels.size(), glm::vec3(0.0f));
+    std::vector<glm::vec3> result(work_.lumels().size(), glm::vec3(0.0f));
     if (direct_)
         for (std::size_t i = 0; i < result.size(); ++i)
             result[i] = arrived(i);

@@ -26,8 +26,8 @@ public:
     /// All arguments must outlive this. limits: stopping criteria. parts: of the light that
     /// irradiance() returns. Throws Error{device} if the options require a ray tracing backend that
     /// the device lacks.
-    LinkRadiosity(const gpu::Device& device, const HostScene& host, const Lumels& lumels,
-                  const LinksOptions& options, const SolveLimits& limits, Parts parts);
+    LinkRadiosity(const gpu::Device& device, const SolveScene& scene, const LinksOptions& options,
+                  const SolveLimits& limits, Parts parts);
     ~LinkRadiosity() override;
 
     /// GPU memory [bytes]: none.
@@ -52,7 +52,10 @@ public:
     std::vector<glm::vec3> irradiance() override;
     const gpu::StageTimes& times() const override { return times_; }
     double longest_submission() const override { return 0.0; }
-    std::string rays() const override { return bundles_ ? "raster" : caster_->name(); }
+    std::string rays() const override
+    {
+        return work_.casters.bundles ? "raster" : work_.caster().name();
+    }
     void write_state(StateWriter& writer) override;
     void read_state(StateReader& reader) override;
 
@@ -96,16 +99,7 @@ private:
     const std::uint64_t most_shots_;  ///< 0: no limit
     const std::uint64_t most_bytes_;  ///< memory limit of links, 0: no limit
     const Parts parts_wanted_;
-    const Lumels& lumels_;
-    Surfaces surfaces_;
-    std::unique_ptr<BundleCaster> bundles_;  ///< null: caster_ traces all rays
-    std::unique_ptr<RayCaster> caster_;
-    LinkScene place_;
-    WorldLumels world_;
-    Cells cells_;
-    RayOrigins starts_;
-    LightSources sources_;
-    std::vector<std::uint32_t> order_;  ///< [N] lumels, neighbours in space close
+    LinkWork work_;
     std::optional<SubLumels> parts_;
     std::optional<DirectEstimator> direct_;
     std::optional<LinkTracer> tracer_;

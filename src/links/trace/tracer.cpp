@@ -118,38 +118,31 @@ std::size_t LinkSet::bytes() const
     return bytes;
 }
 
-LinkTracer::LinkTracer(const LinkScene& place, const LightSources& sources,
-                       const WorldLumels& world, const RayOrigins& starts, const Cells& cells,
-                       const SubLumels& parts, const DirectEstimator& direct,
-                       const std::vector<std::uint32_t>& order, std::uint32_t seed)
-    : place_(place),
-      sources_(sources),
-      world_(world),
-      starts_(starts),
-      cells_(cells),
+LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const DirectEstimator& direct,
+                       std::uint32_t seed)
+    : work_(work),
       parts_(parts),
       direct_(direct),
-      order_(order),
-      hits_(place.scene, place.atlas, place.lumels),
+      hits_(work.scene.scene, work.scene.atlas, work.scene.lumels),
       seed_(seed),
-      ray_offset_(place.rays.ray_offset())
+      ray_offset_(work.scene.rays.ray_offset())
 {
 }
 
 void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) const
 {
-    const Lumel& lumel = place_.lumels.lumels[i];
+    const Lumel& lumel = work_.lumels()[i];
     const std::uint32_t rays = (lumel.flags & kLumelBuried) != 0 ? 0u : sending.rays[i];
     const std::uint32_t own = PathSamples::hash(PathSamples::hash(seed_, sending.stream), i);
     std::optional<CosineDraw> shared;
     if (sending.shared) {
-        const auto width = std::uint32_t(place_.lumels.width);
+        const auto width = std::uint32_t(work_.scene.lumels.width);
         shared.emplace(*sending.shared,
                        sending.shared->set(lumel.texel % width, lumel.texel / width));
     }
     for (std::uint32_t k = 0; k < rays; ++k) {
         const PathSamples samples(own, k);
-        const RayOrigin start = starts_.start(i, samples.stratified(kOriginPair));
+        const RayOrigin start = work_.starts.start(i, samples.stratified(kOriginPair));
         std::uint32_t along = 0;
         glm::vec3 direction;
         if (shared) {
@@ -165,7 +158,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
             wave.along.push_back(along);
         }
         wave.paths.push_back(
-            {.samples = samples, .from = parts_.part(i, start.cell), .size = world_[i].size});
+            {.samples = samples, .from = parts_.part(i, start.cell), .size = work_.world[i].size});
     }
     wave.lumels.push_back(i);
     wave.paths_before.push_back(std::uint32_t(wave.paths.size()));
@@ -181,7 +174,7 @@ void LinkTracer::cast_bundles(const SharedDirections& shared, std::vector<RayBat
         rays.insert(rays.end(), wave.rays.begin(), wave.rays.end());
     }
     std::vector<RayHit> hits(rays.size());
-    place_.bundles->closest({shared.all(), along, rays}, hits);
+    work_.casters.bundles->closest({shared.all(), along, rays}, hits);
     auto next = hits.begin();
     for (RayBatch& wave : waves) {
         const auto end = next + std::ptrdiff_t(wave.rays.size());
@@ -197,7 +190,7 @@ void LinkTracer::follow(RayBatch& wave) const
         const std::size_t count = wave.rays.size();
         wave.hits.resize(std::max(wave.hits.size(), count));
         if (wave.reflections > 0 || !wave.is_cast)
-            place_.caster.closest(wave.rays, std::span(wave.hits).first(count));
+            work_.caster().closest(wave.rays, std::span(wave.hits).first(count));
         meet(wave);
         find_seen_cells(wave);
         end_or_reflect(wave);
@@ -215,15 +208,15 @@ void LinkTracer::meet(RayBatch& wave) const
         path.weight *= hit.tint;
         if (hit.distance == RayCaster::kNothing) {
             (wave.reflections == 0 ? path.sky : path.reflected) +=
-                path.weight * kPi * sources_.dim_sky(ray.direction);
+                path.weight * kPi * work_.sources.dim_sky(ray.direction);
             path.met = HitKind::sky;
             continue;
         }
         if (wave.reflections == 0)
             path.nearest = hit.distance;
         path.met = HitKind::nothing;
-        const std::size_t surface = place_.surfaces.index(hit.instance, hit.primitive);
-        if (!hit.front && !place_.surfaces.all()[surface].double_sided)
+        const std::size_t surface = work_.scene.surfaces.index(hit.instance, hit.primitive);
+        if (!hit.front && !work_.scene.surfaces.all()[surface].double_sided)
             continue;
         const std::uint32_t j = hits_.lumel(hit);
         if (j == kNoLumel) {
@@ -231,13 +224,13 @@ void LinkTracer::meet(RayBatch& wave) const
             continue;
         }
         const glm::vec3 position = ray.origin + hit.distance * ray.direction;
-        const float sides = hit.distance / std::max(path.size, place_.lumels.lumels[j].size);
+        const float sides = hit.distance / std::max(path.size, work_.lumels()[j].size);
         const bool may_go_on = wave.reflections < kMaxReflections, first = wave.reflections == 0;
         const float near_for_light = direct_.varies(j) ? kNear : kNearForCells;
         wave.arrivals.push_back(
             {.ray = r,
              .lumel = j,
-             .cell = cells_.cell(j, position),
+             .cell = work_.cells.cell(j, position),
              .position = position,
              .may_be_hidden = parts_.is_cut(j) || sides < kMayBeHidden,
              .looks_around = may_go_on && sides < (first ? near_for_light : kTooNear),
@@ -269,7 +262,7 @@ void LinkTracer::find_seen_cells(RayBatch& wave) const
             return true;
         });
         wave.transmittance.resize(wave.to_cells.size());
-        place_.caster.transmittance(wave.to_cells, wave.transmittance);
+        work_.caster().transmittance(wave.to_cells, wave.transmittance);
         auto passed = wave.transmittance.begin();
         std::erase_if(open, [&](std::uint32_t a) {
             const bool sees = *passed++ != glm::vec3(0.0f);
@@ -285,7 +278,7 @@ void LinkTracer::find_seen_cells(RayBatch& wave) const
 std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, std::uint32_t seed) const
 {
     const std::uint32_t j = arrival.lumel;
-    const CellPoints points = cell_points(world_, cells_, j);
+    const CellPoints points = cell_points(work_.world, work_.cells, j);
     const std::uint32_t left = points.used & ~arrival.unseen_cells;
     if (left == 0)
         return std::nullopt;
@@ -297,9 +290,9 @@ std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, std::uint32_t s
             arrival.cell = c;
         }
     }
-    const float ray_offset = std::max(kAboveHit * world_[j].size, ray_offset_);
+    const float ray_offset = std::max(kAboveHit * work_.world[j].size, ray_offset_);
     const LumelPoint& point = points.point[arrival.cell];
-    return ray_between(arrival.position + ray_offset * world_[j].normal,
+    return ray_between(arrival.position + ray_offset * work_.world[j].normal,
                        point.position + ray_offset * point.normal, 0.0f, seed);
 }
 
@@ -313,7 +306,7 @@ void LinkTracer::end_or_reflect(RayBatch& wave) const
     for (const PathHit& arrival : wave.arrivals) {
         const std::uint32_t p = wave.path_of[arrival.ray];
         Path& path = wave.paths[p];
-        const glm::vec3& albedo = place_.lumels.lumels[arrival.lumel].albedo;
+        const glm::vec3& albedo = work_.lumels()[arrival.lumel].albedo;
         if (arrival.is_hidden && !arrival.goes_on)
             continue;
         if (!arrival.looks_around)
@@ -331,7 +324,7 @@ void LinkTracer::end_or_reflect(RayBatch& wave) const
         if (arrival.looks_around)
             wave.looking.push_back(p);
     }
-    wave.looks.cast(place_.caster);
+    wave.looks.cast(work_.caster());
     for (std::uint32_t n = 0; n < wave.looking.size(); ++n) {
         Path& path = wave.paths[wave.looking[n]];
         path.reflected += path.weight * direct_.light_of(wave.looks, n * direct_.looks_around());
@@ -354,7 +347,7 @@ RaySpan LinkTracer::reflect(const RayBatch& wave, const PathHit& arrival, Path& 
     const glm::vec3 origin = ray.origin +
                              ray.direction * std::max(0.0f, hit.distance - ray_offset_) +
                              ray_offset_ * normal;
-    path.size = place_.lumels.lumels[arrival.lumel].size;
+    path.size = work_.lumels()[arrival.lumel].size;
     if (arrival.looks_around)
         direct_.sample_lights({origin, normal, normal, arrival.cell}, path.size,
                               path.samples.bits(pair), looks);
@@ -393,7 +386,7 @@ void LinkTracer::keep(const RayBatch& wave, std::size_t n, LinkBlock& block, Lin
     }
 }
 
-/// Stores the results of a batch, whose lumels are those of order_ from `first` on.
+/// Stores the results of a batch, whose lumels are those of work_.order from `first` on.
 void LinkTracer::keep_all(const RayBatch& wave, std::size_t first, LinkSet& into) const
 {
     for (std::size_t n = 0; n < wave.lumels.size(); ++n) {
@@ -409,11 +402,11 @@ void LinkTracer::keep_all(const RayBatch& wave, std::size_t first, LinkSet& into
 void LinkTracer::trace_blocks(std::size_t first, std::size_t last, const Sending& sending,
                               LinkSet& into) const
 {
-    const std::size_t end = std::min(last * kLinkBlock, order_.size());
+    const std::size_t end = std::min(last * kLinkBlock, work_.order.size());
     RayBatch wave;
     for (std::size_t o = first * kLinkBlock; o < end; ++o) {
-        add(order_[o], sending, wave);
-        if (wave.paths.size() < place_.caster.batch() && o + 1 < end)
+        add(work_.order[o], sending, wave);
+        if (wave.paths.size() < work_.caster().batch() && o + 1 < end)
             continue;
         follow(wave);
         keep_all(wave, o + 1 - wave.lumels.size(), into);
@@ -433,8 +426,8 @@ void LinkTracer::trace_bundles(std::size_t first, std::size_t last, const Sendin
         });
     };
     for_each_wave([&](RayBatch& wave, std::size_t begin) {
-        for (std::size_t o = begin; o < std::min(begin + kLinkBlock, order_.size()); ++o)
-            add(order_[o], sending, wave);
+        for (std::size_t o = begin; o < std::min(begin + kLinkBlock, work_.order.size()); ++o)
+            add(work_.order[o], sending, wave);
     });
     cast_bundles(*sending.shared, waves);
     for_each_wave([&](RayBatch& wave, std::size_t begin) {
@@ -446,14 +439,14 @@ void LinkTracer::trace_bundles(std::size_t first, std::size_t last, const Sendin
 void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sending,
                        LinkSet& into) const
 {
-    if (sending.shared && place_.bundles) {
+    if (sending.shared && work_.casters.bundles) {
         trace_bundles(first, last, sending, into);
     } else {
-        const std::size_t end = std::min(last * kLinkBlock, order_.size());
+        const std::size_t end = std::min(last * kLinkBlock, work_.order.size());
         std::size_t all = 1;
         for (std::size_t o = first * kLinkBlock; o < end; ++o)
-            all += sending.rays[order_[o]];
-        const std::size_t grain = place_.caster.batch() * (last - first) / all;
+            all += sending.rays[work_.order[o]];
+        const std::size_t grain = work_.caster().batch() * (last - first) / all;
         parallel_for(last - first, grain, [&](std::size_t from, std::size_t to) {
             trace_blocks(first + from, first + to, sending, into);
         });

@@ -75,13 +75,11 @@ struct LinkSet {
 /// Traces rays from lumels until they hit a sub-lumel.
 class LinkTracer {
 public:
-    /// All arguments must outlive this. order [N]: lumels in the order of blocks.
-    LinkTracer(const LinkScene& place, const LightSources& sources, const WorldLumels& world,
-               const RayOrigins& starts, const Cells& cells, const SubLumels& parts,
-               const DirectEstimator& direct, const std::vector<std::uint32_t>& order,
+    /// All arguments must outlive this.
+    LinkTracer(const LinkWork& work, const SubLumels& parts, const DirectEstimator& direct,
                std::uint32_t seed);
 
-    std::size_t blocks() const { return (order_.size() + kLinkBlock - 1) / kLinkBlock; }
+    std::size_t blocks() const { return (work_.order.size() + kLinkBlock - 1) / kLinkBlock; }
 
     /// Rays to trace.
     struct Sending {
@@ -114,14 +112,9 @@ private:
     void trace_bundles(std::size_t first, std::size_t last, const Sending& sending,
                        LinkSet& into) const;
 
-    const LinkScene place_;
-    const LightSources& sources_;
-    const WorldLumels& world_;
-    const RayOrigins& starts_;
-    const Cells& cells_;
+    const LinkWork& work_;
     const SubLumels& parts_;
     const DirectEstimator& direct_;
-    const std::vector<std::uint32_t>& order_;
     NearLumels hits_;
     std::uint32_t seed_;
     float ray_offset_;

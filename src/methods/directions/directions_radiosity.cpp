@@ -26,7 +26,7 @@ constexpr double kUsualError = 0.005;
 }  // namespace
 
 DirectionsRadiosity::DirectionsRadiosity(const gpu::Device& device, const World& world,
-                                         const HostScene& host, const Lumels& lumels,
+                                         const SolveScene& scene, const Lumels& lumels,
                                          const DirectionsOptions& options, double target_error,
                                          std::span<const glm::vec3> known, Parts parts)
     : device_(&device),
@@ -36,7 +36,7 @@ DirectionsRadiosity::DirectionsRadiosity(const gpu::Device& device, const World&
       direct_error_(target_error > 0.0 ? kDirectShare * target_error : kUsualError),
       known_(known.begin(), known.end()),
       reflecting_(lumels),
-      direct_(host, lumels, options.seed, direct_error_, known),
+      direct_(scene, options.seed, direct_error_, known),
       reflects_(parts != Parts::direct && reflecting_area(lumels) > 0.0f)
 {
 }

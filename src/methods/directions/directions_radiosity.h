@@ -15,7 +15,7 @@ class DirectionsRadiosity final : public Solver {
 public:
     /// All arguments must outlive this. known: SolverInputs::known. irradiance() returns `parts` of
     /// the light.
-    DirectionsRadiosity(const gpu::Device& device, const World& world, const HostScene& host,
+    DirectionsRadiosity(const gpu::Device& device, const World& world, const SolveScene& scene,
                         const Lumels& lumels, const DirectionsOptions& options, double target_error,
                         std::span<const glm::vec3> known, Parts parts);
 

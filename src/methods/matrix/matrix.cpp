@@ -23,12 +23,12 @@
 
 namespace lumel {
 MatrixRadiosity::MatrixRadiosity(const gpu::Device& device, const World& world,
-                                 const HostScene& host, const Lumels& lumels, const NearField& near,
-                                 const MatrixOptions& options, double target_error,
-                                 std::span<const glm::vec3> known)
+                                 const SolveScene& scene, const Lumels& lumels,
+                                 const NearField& near, const MatrixOptions& options,
+                                 double target_error, std::span<const glm::vec3> known)
     : lumels_(&lumels),
       known_(known.begin(), known.end()),
-      direct_(host, lumels, options.seed, target_error, known),
+      direct_(scene, options.seed, target_error, known),
       seed_(options.seed),
       gather_rays_(gather_rays(target_error))
 {

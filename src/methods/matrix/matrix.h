@@ -16,7 +16,7 @@ namespace lumel {
 class MatrixRadiosity final : public Solver {
 public:
     /// All arguments must outlive this. target_error: of direct light. known: SolverInputs::known.
-    MatrixRadiosity(const gpu::Device& device, const World& world, const HostScene& host,
+    MatrixRadiosity(const gpu::Device& device, const World& world, const SolveScene& scene,
                     const Lumels& lumels, const NearField& near, const MatrixOptions& options,
                     double target_error, std::span<const glm::vec3> known);
 

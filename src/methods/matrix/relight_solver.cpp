@@ -3,7 +3,7 @@
 //   [SF17] A. Shcherbakov, V. Frolov. Accelerating Radiosity on GPUs. WSCG 2017.
 //
 // As methods/matrix/matrix.cpp, but with separate direct light of each source: emissive surfaces by
-// rays in a scene where no others emit, sky and lamps as given.
+// rays to them alone, sky and lamps as given.
 
 #include "methods/matrix/relight_solver.h"
 
@@ -28,20 +28,17 @@ double mean_of(std::span<const glm::vec3> irradiance)
 
 }  // namespace
 
-RelightSolver::Emitter::Emitter(Scene only_shining, const RelightSolver& of)
-    : scene(std::move(only_shining)),
-      host{scene, of.host_.rays, of.host_.atlas},
-      solver(host, *of.lumels_, of.matrix_.seed, of.limits_.target_error),
+RelightSolver::Emitter::Emitter(const LightSource& source, const RelightSolver& of)
+    : solver(*of.scene_, of.matrix_.seed, of.limits_.target_error, {}, source.instances),
       start(wall_seconds())
 {
 }
 
-RelightSolver::RelightSolver(const gpu::Device& device, const World& world, const HostScene& host,
-                             const Lumels& lumels, const NearField& near,
-                             const MatrixOptions& options, const SolveLimits& limits,
-                             std::vector<KnownSource> sources, Parts parts)
-    : host_(host),
-      lumels_(&lumels),
+RelightSolver::RelightSolver(const gpu::Device& device, const World& world, const SolveScene& scene,
+                             const NearField& near, const MatrixOptions& options,
+                             const SolveLimits& limits, std::vector<KnownSource> sources,
+                             Parts parts)
+    : scene_(&scene),
       parts_(parts),
       limits_(limits),
       matrix_(options),
@@ -50,6 +47,7 @@ RelightSolver::RelightSolver(const gpu::Device& device, const World& world, cons
       surfaces_(sources_.size()),
       reflected_(sources_.size())
 {
+    const Lumels& lumels = scene.lumels;
     for (KnownSource& source : sources_)
         source.direct.resize(lumels.lumels.size(), glm::vec3(0.0f));
     if (parts != Parts::direct && reflecting_area(lumels) > 0.0f)
@@ -101,7 +99,7 @@ void RelightSolver::begin_source()
         ++next_;
     if (next_ == sources_.size())
         return;
-    emitter_.emplace(only_shining(host_.scene, sources_[next_].source), *this);
+    emitter_.emplace(sources_[next_].source, *this);
     const double left = limits_.max_seconds - (emitter_->start - start_);
     emitter_->seconds = std::max(left, 0.0) / double(emitters_from(next_));
 }
@@ -140,7 +138,7 @@ void RelightSolver::end_direct()
         end_source();
         return;
     }
-    emitter_->last.emplace(emitter_->solver, transport_->indirect(*lumels_, surfaces_[next_]),
+    emitter_->last.emplace(emitter_->solver, transport_->indirect(scene_->lumels, surfaces_[next_]),
                            gather_rays(limits_.target_error), matrix_.seed);
 }
 
@@ -181,7 +179,7 @@ SolverState RelightSolver::state() const
 
 std::vector<glm::vec3> RelightSolver::irradiance()
 {
-    const std::size_t count = lumels_->lumels.size();
+    const std::size_t count = scene_->lumels.lumels.size();
     // Light whose last bounce is by patches, and reflected light by rays.
     std::vector<glm::vec3> direct(count, glm::vec3(0.0f)), by_patches = direct, reflected = direct;
     for (std::size_t s = 0; s < sources_.size(); ++s) {
@@ -196,7 +194,7 @@ std::vector<glm::vec3> RelightSolver::irradiance()
         add_light(by_patches, emitter_->solver.irradiance());
     }
     if (transport_)
-        add_light(reflected, transport_->indirect(*lumels_, by_patches));
+        add_light(reflected, transport_->indirect(scene_->lumels, by_patches));
     if (parts_ == Parts::indirect)
         return reflected;
     add_light(direct, reflected);
@@ -205,8 +203,8 @@ std::vector<glm::vec3> RelightSolver::irradiance()
 
 Relightable RelightSolver::relightable(const std::string& hash) const
 {
-    Relightable light{.scene_hash = hash, .side = std::uint32_t(lumels_->width)};
-    for (const Lumel& lumel : lumels_->lumels) {
+    Relightable light{.scene_hash = hash, .side = std::uint32_t(scene_->lumels.width)};
+    for (const Lumel& lumel : scene_->lumels.lumels) {
         light.place.push_back(place_of(lumel.texel, (lumel.flags & kLumelBack) != 0));
         light.area.push_back((lumel.flags & kLumelBuried) ? 0.0f : lumel.area);
         light.albedo.push_back(lumel.albedo);
@@ -216,12 +214,12 @@ Relightable RelightSolver::relightable(const std::string& hash) const
         SourceLight& source = light.sources.emplace_back(
             SourceLight{known.source.name, known.source.materials, known.direct, reflected_[s]});
         if (transport_ && !source.reflected.empty())
-            add_light(source.reflected, transport_->indirect(*lumels_, known.direct));
+            add_light(source.reflected, transport_->indirect(scene_->lumels, known.direct));
         add_light(source.direct, surfaces_[s]);
-        source.lights = lamps_of(host_.scene, known.source).lights;
+        source.lights = lamps_of(scene_->scene, known.source).lights;
     }
-    light.profiles = host_.scene.profiles;
-    light.origin = host_.scene.origin;
+    light.profiles = scene_->scene.profiles;
+    light.origin = scene_->scene.origin;
     if (transport_) {
         light.patches = transport_->patches;
         light.rows = transport_->rows;

@@ -22,9 +22,9 @@ struct KnownSource {
 class RelightSolver final : public Solver {
 public:
     /// All but the sources must outlive this. irradiance() returns `parts` of the light.
-    RelightSolver(const gpu::Device& device, const World& world, const HostScene& host,
-                  const Lumels& lumels, const NearField& near, const MatrixOptions& options,
-                  const SolveLimits& limits, std::vector<KnownSource> sources, Parts parts);
+    RelightSolver(const gpu::Device& device, const World& world, const SolveScene& scene,
+                  const NearField& near, const MatrixOptions& options, const SolveLimits& limits,
+                  std::vector<KnownSource> sources, Parts parts);
 
     /// Upper bound on GPU memory [bytes], if the device does not limit images.
     static std::uint64_t device_bytes(const SolveSize& size, const MatrixOptions& options);
@@ -50,10 +50,8 @@ public:
 private:
     /// The current source.
     struct Emitter {
-        Emitter(Scene only_shining, const RelightSolver& of);
+        Emitter(const LightSource& source, const RelightSolver& of);
 
-        Scene scene;  ///< only the source's surfaces emit
-        HostScene host;
         DirectRays solver;
         std::optional<FinalGather> last;  ///< once direct light is known
         double start, seconds;            ///< start, and time limit if any [s]
@@ -67,8 +65,7 @@ private:
     void finish_builder();
     void add_times(const gpu::StageTimes& times);
 
-    HostScene host_;
-    const Lumels* lumels_;
+    const SolveScene* scene_;
     Parts parts_;
     SolveLimits limits_;
     MatrixOptions matrix_;

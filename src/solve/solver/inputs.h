@@ -6,20 +6,13 @@
 #include <glm/glm.hpp>
 
 #include "atlas/near/near_field.h"
+#include "atlas/prepare/solve_scene.h"
 #include "raster/world/world.h"
-#include "rays/cast/ray_scene.h"
 #include "scene/values/parts.h"
 
 namespace lumel {
 
 class LobeParticles;
-
-/// A scene for methods that trace rays on the CPU.
-struct HostScene {
-    const Scene& scene;
-    const RayScene& rays;
-    const Atlas& atlas;
-};
 
 /// Inputs of a method. All must outlive it.
 struct SolverInputs {
@@ -35,8 +28,8 @@ struct SolverInputs {
     /// only; or empty. The emission of `lumels` is then the diffuse reflection of `known`, and
     /// lobes reflect the rest.
     std::span<const glm::vec3> first_emission = {};
-    /// For links, matrix and directions of Scheme::phased; used during construction only.
-    const HostScene* host = nullptr;
+    /// For methods that trace rays on the CPU: links, matrix, and directions of Scheme::phased.
+    const SolveScene* scene = nullptr;
     Parts parts = Parts::all;  ///< results of methods that find lights or finds_emitted()
 };
 

@@ -10,7 +10,7 @@
 
 #include "../../support/source_folder.h"
 #include "../../support/temporary_folder.h"
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 #include "base/core/error.h"
 #include "base/core/fingerprint.h"
 #include "links/kept/links_file.h"
@@ -45,7 +45,7 @@ struct Lit {
           light(prepared.scene, prepared.atlas, prepared.lumels, {.rays = 16, .seed = 1}, kept)
     {
     }
-    Prepared prepared;
+    SolveScene prepared;
     LinkRelighter light;
 };
 

@@ -66,7 +66,7 @@ public:
     }
 
     LiveLinks& live() { return live_; }
-    /// Prepared from nothing on the same lumels.
+    /// SolveScene from nothing on the same lumels.
     LiveLinks anew() const { return {{live_.scene(), live_.atlas(), live_.lumels()}, options_}; }
     /// Paints and dims another as this one is now.
     void do_to(LiveLinks& fresh) const

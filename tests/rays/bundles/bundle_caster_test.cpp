@@ -88,19 +88,19 @@ protected:
 
 TEST_F(BundleCasterTest, MeetsInTheCornellBoxWhatTheHostMeets)
 {
-    const Prepared world(support::scene_path("cornell-box"), {.size = 16});
+    const SolveScene world(support::scene_path("cornell-box"), {.size = 16});
     expect_agreement(world.scene);
 }
 
 TEST_F(BundleCasterTest, MeetsInTwoRoomsWhatTheHostMeets)
 {
-    const Prepared world(support::scene_path("two-rooms"), {.size = 16});
+    const SolveScene world(support::scene_path("two-rooms"), {.size = 16});
     expect_agreement(world.scene);
 }
 
 TEST_F(BundleCasterTest, MeetsInAFurnishedRoomWhatTheHostMeets)
 {
-    const Prepared world(support::scene_path("room"), {.size = 96});
+    const SolveScene world(support::scene_path("room"), {.size = 96});
     expect_agreement(world.scene);
 }
 

@@ -15,7 +15,7 @@ double power(const Lumels& lumels, const std::vector<glm::vec3>& light)
 
 /// Directions that lumels share bring the light that directions of their own bring. By the host,
 /// for so many rays that noise does not hide a difference.
-void expect_the_same_level(const Prepared& world)
+void expect_the_same_level(const SolveScene& world)
 {
     constexpr std::uint64_t kRays = 1536;
     const support::Solved own = support::solve_links(world, {.rays = Rays::host}, kRays);
@@ -47,7 +47,7 @@ TEST(LinksByRaster, LeaveASealedBoxExactlyDarkUnderSkyAndSun)
     set_sun(lights, "200,40");
     const Scene scene =
         read_scene(support::scene_path("sealed-box"), MaterialModel::diffuse, lights);
-    const Prepared world(scene, AtlasOptions{.size = 64});
+    const SolveScene world(scene, AtlasOptions{.size = 64});
     const std::vector<glm::vec3> light =
         support::solve_links(world, {.rays = Rays::raster}, 96).irradiance;
     float brightest = 0.0f;
@@ -65,19 +65,19 @@ TEST(LinksByRaster, LeaveASealedBoxExactlyDarkUnderSkyAndSun)
 
 TEST(SharedDirections, LightTheCornellBoxAsOwnOnesDo)
 {
-    expect_the_same_level(Prepared(support::scene_path("cornell-box"), {.size = 64}));
+    expect_the_same_level(SolveScene(support::scene_path("cornell-box"), {.size = 64}));
 }
 
 TEST(SharedDirections, PassGlassCutOutsAndVeilsAsOwnOnesDo)
 {
-    expect_the_same_level(Prepared(support::room_with_curtains(), {.size = 48}));
+    expect_the_same_level(SolveScene(support::room_with_curtains(), {.size = 48}));
 }
 
 /// One set of directions for all lumels leaves its pattern in the light, which the filter takes for
 /// true. Sixteen do not, nor do they cost accuracy.
 TEST(SharedDirections, LeaveNoPatternIfTheyAreInterleaved)
 {
-    const Prepared world(support::scene_path("cornell-box"), {.size = 128});
+    const SolveScene world(support::scene_path("cornell-box"), {.size = 128});
     // Two of them, so that their own noise does not count.
     const auto truth = [&](std::uint32_t seed) {
         return support::solve_links(world, {.seed = seed, .rays = Rays::host}, 384).irradiance;
@@ -103,7 +103,7 @@ TEST(SharedDirections, LeaveNoPatternIfTheyAreInterleaved)
 
 TEST(LinksByRaster, GiveTheSameBytesAgain)
 {
-    const Prepared world(support::scene_path("cornell-box"), {.size = 32});
+    const SolveScene world(support::scene_path("cornell-box"), {.size = 32});
     EXPECT_EQ(support::solve_links(world, {.rays = Rays::raster}, 48).irradiance,
               support::solve_links(world, {.rays = Rays::raster}, 48).irradiance);
 }

@@ -11,15 +11,15 @@ namespace lumel::support {
 
 struct ComparedRoom {
     const char* name;
-    Prepared (*prepare)();
+    SolveScene (*prepare)();
 };
 
 inline const std::array kComparedRooms = {
-    ComparedRoom{"cornell_box", [] { return Prepared(scene_path("cornell-box"), {.size = 64}); }},
-    ComparedRoom{"two_rooms", [] { return Prepared(scene_path("two-rooms"), {.size = 64}); }},
-    ComparedRoom{"furnished", [] { return Prepared(scene_path("room"), {.size = 96}); }},
+    ComparedRoom{"cornell_box", [] { return SolveScene(scene_path("cornell-box"), {.size = 64}); }},
+    ComparedRoom{"two_rooms", [] { return SolveScene(scene_path("two-rooms"), {.size = 64}); }},
+    ComparedRoom{"furnished", [] { return SolveScene(scene_path("room"), {.size = 96}); }},
     // Glass, cut-outs and veils.
-    ComparedRoom{"curtains", [] { return Prepared(room_with_curtains(), {.size = 48}); }}};
+    ComparedRoom{"curtains", [] { return SolveScene(room_with_curtains(), {.size = 48}); }}};
 
 inline std::string name_of_room(const testing::TestParamInfo<ComparedRoom>& test)
 {
@@ -27,7 +27,7 @@ inline std::string name_of_room(const testing::TestParamInfo<ComparedRoom>& test
 }
 
 /// As many rays for all: an error to stop at may be reached a round earlier by one of them.
-inline Solved solve_links(const Prepared& world, const LinksOptions& method, std::uint64_t rays)
+inline Solved solve_links(const SolveScene& world, const LinksOptions& method, std::uint64_t rays)
 {
     return solve_scene(world, {.method = method, .max_shots = rays, .target_error = 0.0});
 }
@@ -50,7 +50,7 @@ inline void expect_agreement(const ComparedRoom& room, const LinksOptions& devic
                              const LinksOptions& host, double error)
 {
     constexpr std::uint64_t kRays = 48;
-    const Prepared world = room.prepare();
+    const SolveScene world = room.prepare();
     const Solved found = solve_links(world, device, kRays);
     const Solved expected = solve_links(world, host, kRays);
     EXPECT_EQ(found.state.shots, expected.state.shots);

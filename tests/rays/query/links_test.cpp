@@ -35,7 +35,7 @@ TEST_F(LinksByQueries, MakeAClosedRoomGlowAsItsAbsorptionAllows)
 
 TEST_F(LinksByQueries, GiveTheSameBytesAgain)
 {
-    const Prepared world(support::scene_path("cornell-box"), {.size = 32});
+    const SolveScene world(support::scene_path("cornell-box"), {.size = 32});
     const SolverOptions options = links(Rays::query, 0.05);
     EXPECT_EQ(support::solve_scene(world, options).irradiance,
               support::solve_scene(world, options).irradiance);

@@ -63,13 +63,13 @@ void expect_agreement(const gpu::Device& device, const Scene& scene)
 
 TEST_F(QueryCaster, MeetsInTheCornellBoxWhatTheHostMeets)
 {
-    const Prepared world(support::scene_path("cornell-box"), {.size = 16});
+    const SolveScene world(support::scene_path("cornell-box"), {.size = 16});
     expect_agreement(device, world.scene);
 }
 
 TEST_F(QueryCaster, MeetsInTwoRoomsWhatTheHostMeets)
 {
-    const Prepared world(support::scene_path("two-rooms"), {.size = 16});
+    const SolveScene world(support::scene_path("two-rooms"), {.size = 16});
     expect_agreement(device, world.scene);
 }
 

@@ -1,4 +1,4 @@
-#include "atlas/prepare/prepare.h"
+#include "atlas/prepare/solve_scene.h"
 
 #include <algorithm>
 
@@ -56,8 +56,8 @@ void check_camera(const Scene& scene, int camera)
                                  : "the scene's cameras are 0 to " + std::to_string(cameras - 1));
 }
 
-Prepared::Prepared(Scene given, const AtlasOptions& options, const ProgressCallback& progress)
-    : Prepared(
+SolveScene::SolveScene(Scene given, const AtlasOptions& options, const ProgressCallback& progress)
+    : SolveScene(
           std::move(given),
           [&](const Scene& placed, const RayScene& among, const ProgressCallback& part) {
               return make_atlas(placed, options, part, shows_both(options.sides, among));
@@ -66,10 +66,11 @@ Prepared::Prepared(Scene given, const AtlasOptions& options, const ProgressCallb
 {
 }
 
-Prepared::Prepared(Scene given, const LayOut& lay_out, const Bury& bury,
-                   const ProgressCallback& progress)
+SolveScene::SolveScene(Scene given, const LayOut& lay_out, const Bury& bury,
+                       const ProgressCallback& progress)
     : scene(std::move(given)),
       rays(scene),
+      surfaces(scene),
       atlas(lay_out(scene, rays, part_of(progress, kRaysReady, kLaidOut))),
       lumels(make_lumels(scene, atlas, part_of(progress, kLaidOut, kLifted)))
 {
@@ -81,8 +82,18 @@ Prepared::Prepared(Scene given, const LayOut& lay_out, const Bury& bury,
                 : mark_buried(scene, rays, lumels, {}, part_of(progress, kLifted, 1.0));
 }
 
-Prepared::Prepared(const std::string& scene_path, const AtlasOptions& options)
-    : Prepared(read_gltf(scene_path), options)
+SolveScene::SolveScene(Scene given, Atlas laid_out, Lumels made)
+    : scene(std::move(given)),
+      rays(scene),
+      surfaces(scene),
+      atlas(std::move(laid_out)),
+      lumels(std::move(made)),
+      open(lumels.lumels.size(), 1.0f)
+{
+}
+
+SolveScene::SolveScene(const std::string& scene_path, const AtlasOptions& options)
+    : SolveScene(read_gltf(scene_path), options)
 {
 }
 

@@ -1,11 +1,12 @@
 #pragma once
-// Scene, rays, atlas and lumels: the inputs of every method.
+// A scene made ready: rays, surfaces, atlas and lumels, the inputs of every method.
 
 #include <functional>
 #include <string>
 
 #include "atlas/packing/atlas.h"
 #include "rays/cast/ray_scene.h"
+#include "rays/paths/surfaces.h"
 #include "scene/sky/light_options.h"
 
 namespace lumel {
@@ -16,24 +17,30 @@ Scene read_scene(const std::string& path, MaterialModel model, const LightOption
 /// Throws Error{input} if the scene has no such camera; -1 means any.
 void check_camera(const Scene& scene, int camera);
 
-/// A scene with its lumels; buried ones are marked. Not movable, because the rays refer to the
-/// scene.
-struct Prepared {
+/// A scene with its lumels; buried ones are marked. Must not move, because rays and surfaces refer
+/// to the scene.
+struct SolveScene {
     /// Builds the atlas and the lumels of a scene. Throws Error.
-    Prepared(Scene scene, const AtlasOptions& options, const ProgressCallback& progress = {});
+    SolveScene(Scene scene, const AtlasOptions& options, const ProgressCallback& progress = {});
     /// Uses the atlas that `lay_out` makes, and `bury`, whose result is `open`, instead of
     /// mark_buried.
     using LayOut = std::function<Atlas(const Scene&, const RayScene&, const ProgressCallback&)>;
     using Bury = std::function<std::vector<float>(const Scene&, const RayScene&, Lumels&)>;
-    Prepared(Scene scene, const LayOut& lay_out, const Bury& bury = {},
-             const ProgressCallback& progress = {});
+    SolveScene(Scene scene, const LayOut& lay_out, const Bury& bury = {},
+               const ProgressCallback& progress = {});
+    /// Uses an atlas and lumels that were made of the scene.
+    SolveScene(Scene scene, Atlas atlas, Lumels lumels);
     /// Reads the scene first.
-    Prepared(const std::string& scene_path, const AtlasOptions& options);
-    Prepared(const Prepared&) = delete;
-    Prepared& operator=(const Prepared&) = delete;
+    SolveScene(const std::string& scene_path, const AtlasOptions& options);
+    SolveScene(const SolveScene&) = delete;
+    SolveScene& operator=(const SolveScene&) = delete;
+
+    /// Diagonal of the scene's bounding box [m].
+    float extent() const { return glm::distance(rays.low(), rays.high()); }
 
     Scene scene;
     RayScene rays;
+    Surfaces surfaces;
     Atlas atlas;
     Lumels lumels;
     std::vector<float> open;  ///< [N] share of each lumel's area that is not buried

@@ -1,0 +1,54 @@
+#pragma once
+// What the stages of the link engine share, and none of them changes.
+
+#include <memory>
+#include <vector>
+
+#include "atlas/cells/cells.h"
+#include "atlas/cells/ray_origins.h"
+#include "atlas/lumels/sample_rule.h"
+#include "atlas/prepare/solve_scene.h"
+#include "lights/sources.h"
+#include "rays/device/bundle_caster.h"
+
+namespace lumel {
+
+/// Must not move.
+struct LinkWork {
+    /// Who casts rays over the scene's geometry.
+    struct Casters {
+        std::unique_ptr<RayCaster> rays;
+        std::unique_ptr<BundleCaster> bundles = nullptr;  ///< of shared directions; null: `rays`
+    };
+    /// Lumels [N] in the order in which they trace rays.
+    using Order = std::vector<std::uint32_t> (*)(const WorldLumels& world);
+
+    /// The scene must outlive this, unmoved.
+    LinkWork(const SolveScene& of, Casters by, SampleRule rule, Order order_of,
+             const LightSelection& lights = {})
+        : scene(of),
+          casters(std::move(by)),
+          world(of.scene, of.rays, of.lumels),
+          cells(world),
+          starts(world, &cells, of.rays.ray_offset(), rule == SampleRule::centre),
+          sources(of.scene, of.surfaces, of.extent(), lights),
+          order(order_of(world))
+    {
+    }
+    LinkWork(const LinkWork&) = delete;
+    LinkWork& operator=(const LinkWork&) = delete;
+
+    const std::vector<Lumel>& lumels() const { return scene.lumels.lumels; }
+    const RayCaster& caster() const { return *casters.rays; }
+    bool is_buried(std::size_t lumel) const { return (lumels()[lumel].flags & kLumelBuried) != 0; }
+
+    const SolveScene& scene;
+    const Casters casters;
+    const WorldLumels world;
+    const Cells cells;
+    const RayOrigins starts;
+    const LightSources sources;
+    const std::vector<std::uint32_t> order;  ///< [N]
+};
+
+}  // namespace lumel
