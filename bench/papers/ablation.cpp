@@ -45,7 +45,6 @@ struct Sight {
     World resident;
     std::optional<LobeParticles> particles;
     WorldLumels standing;
-    Surfaces surfaces;
     Seen seen;
     std::vector<char> counts;  ///< [pixels] 1: shows gloss and no lamp
 };
@@ -56,12 +55,11 @@ Settings glossy(Settings settings)
     return settings;
 }
 
-Seen seen_by_camera(const AblationSettings& settings, const SolveScene& world,
-                    const Surfaces& surfaces)
+Seen seen_by_camera(const AblationSettings& settings, const SolveScene& world)
 {
     const View view = choose_view(world.scene, world.rays);
     const int height = std::max(1, int(std::lround(float(settings.width) / view.aspect)));
-    return look(view, settings.width, height, kSets, world.rays, surfaces, {});
+    return look(view, settings.width, height, kSets, world.rays, world.surfaces, {});
 }
 
 Sight::Sight(const AblationSettings& settings, const gpu::Device& device)
@@ -72,8 +70,7 @@ Sight::Sight(const AblationSettings& settings, const gpu::Device& device)
       resident(device, world.scene, world.lumels),
       particles(particles_for(world, options)),
       standing(world.scene, world.rays, world.lumels),
-      surfaces(world.scene),
-      seen(seen_by_camera(settings, world, surfaces)),
+      seen(seen_by_camera(settings, world)),
       counts(std::size_t(seen.width) * std::size_t(seen.height), 0)
 {
     for (const std::uint32_t point : seen.index)
@@ -115,8 +112,7 @@ void take(Technique& technique, const Sight& sight, GlossyIllumination& solver, 
                                .shooters = technique.shots > 0 ? sampling.shooters() : 0.0f,
                                .seed = seed};
     const PowerDraw senders(sight.standing, sight.world.lumels, brightness);
-    const std::vector<glm::vec3> along = gather_along_lobes(sight.seen.glossy, sight.world.rays,
-                                                            sight.surfaces, lit, senders, lobes);
+    const std::vector<glm::vec3> along = gather_along_lobes(sight.seen.glossy, lit, senders, lobes);
     for (std::size_t g = 0; g < radiance.size(); ++g)
         radiance[g] += along[g];
     watch.stop();
@@ -170,7 +166,7 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
         const SolveScene& world = sight.world;
         const SideMaps maps =
             finish_sides(world.scene, world.atlas, world.lumels, solver.irradiance());
-        const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);
+        const LitScene lit(world, maps.front, maps.back);
         if (i == 0) {  // the driver compiles shaders when they first run
             Technique warm = techniques.back();
             take(warm, sight, solver, lit, gloss.seed);

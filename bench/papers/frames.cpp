@@ -31,7 +31,7 @@ struct Frame {
                 }),
           near(near_field_for(world.scene, world.rays, world.lumels, options)),
           resident(device, world.scene, world.lumels, &world.atlas),
-          particles(world.scene, world.atlas, world.rays, world.lumels)
+          particles(world)
     {
         for (std::uint32_t h = 0; h < 2; ++h)
             truth[h] = reference_irradiance(

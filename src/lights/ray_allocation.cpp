@@ -19,26 +19,23 @@ RayAllocation::Chosen RayAllocation::choose(float mark) const
 }
 
 RayAllocation allocate_rays(const LightSources& sources, const glm::vec3& position,
-                            std::uint32_t rays, const std::function<bool(std::size_t)>& counts)
+                            std::uint32_t rays)
 {
     RayAllocation shares;
     const std::size_t count = sources.count();
     std::vector<float> guesses;
     double total = 0.0;
     for (std::size_t s = 0; s < count; ++s)
-        total += double(guesses.emplace_back(
-            !counts || counts(s) ? sources.sampling_weight(s, position, 0.0f) : 0.0f));
+        total += double(guesses.emplace_back(sources.sampling_weight(s, position, 0.0f)));
     const bool for_all = count * kFewRays <= rays;
     double rest = 0.0;
     shares.rest.reserve(count);
     for (std::size_t s = 0; s < count; ++s) {
         const double part = total > 0.0 ? double(rays) * double(guesses[s]) / total : 0.0;
-        if (!counts || counts(s)) {
-            if (for_all || part >= kFewRays)
-                shares.own.push_back({s, std::max(std::uint32_t(std::ceil(part)), kFewRays)});
-            else
-                rest += double(guesses[s]);
-        }
+        if (for_all || part >= kFewRays)
+            shares.own.push_back({s, std::max(std::uint32_t(std::ceil(part)), kFewRays)});
+        else
+            rest += double(guesses[s]);
         shares.rest.push_back(float(rest));
     }
     if (rest > 0.0)

@@ -2,7 +2,6 @@
 // Allocation of a point's shadow rays to light sources.
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "lights/sources.h"
@@ -29,9 +28,8 @@ struct RayAllocation {
 };
 
 /// Allocates about `rays` rays by sampling weight. Weak sources share rays, unless all can have
-/// their own. `counts`: filter of sources.
+/// their own.
 RayAllocation allocate_rays(const LightSources& sources, const glm::vec3& position,
-                            std::uint32_t rays,
-                            const std::function<bool(std::size_t)>& counts = {});
+                            std::uint32_t rays);
 
 }  // namespace lumel

@@ -20,6 +20,15 @@ inline RaySpan ray_towards(const SourceSample& sample, const RayOrigin& start, f
                        ray_offset, seed);
 }
 
+/// Transmittance of that segment, 0…1; no ray is traced to a sample of no light.
+inline glm::vec3 transmittance_to(const RayScene& rays, const SourceSample& sample,
+                                  const RayOrigin& start, std::uint32_t seed)
+{
+    return sample.irradiance == glm::vec3(0.0f)
+               ? glm::vec3(0.0f)
+               : rays.transmittance(ray_towards(sample, start, rays.ray_offset(), seed));
+}
+
 class ShadowRays {
 public:
     std::uint32_t size() const { return std::uint32_t(samples_.size()); }

@@ -101,9 +101,9 @@ LightSources::LightSources(const Scene& scene, const Surfaces& surfaces, float e
       surfaces_(&surfaces),
       extent_(extent),
       selection_(std::move(selection)),
-      most_(selection_.only_surfaces ? 0.0f : kInfinite)
+      most_(selection_.sky ? kInfinite : 0.0f)
 {
-    if (!selection_.only_surfaces)
+    if (selection_.sky)
         cut_sky();
     place();
 }
@@ -112,8 +112,9 @@ void LightSources::place()
 {
     sources_.clear();
     triangles_.clear();
-    add_surfaces(*surfaces_);
-    if (!selection_.only_surfaces)
+    if (selection_.surfaces)
+        add_surfaces(*surfaces_);
+    if (selection_.lamps)
         add_lights();
     if (bright_power_ > 0.0)
         sources_.push_back({.kind = Kind::sky, .power = bright_power_});

@@ -25,9 +25,12 @@ struct SourceSample {
 
 /// Lights of a scene that count as sources.
 struct LightSelection {
-    bool only_surfaces = false;              ///< neither lamps nor the sky
+    bool surfaces = true, lamps = true, sky = true;
     std::vector<std::uint32_t> instances{};  ///< whose surfaces count; empty: all
 };
+
+/// Lamps and suns alone.
+inline const LightSelection kLampsAlone{.surfaces = false, .sky = false};
 
 /// The light sources of a scene, to be sampled by shadow rays.
 class LightSources {

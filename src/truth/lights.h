@@ -5,12 +5,12 @@
 
 #include <glm/glm.hpp>
 
-#include "lights/lamps.h"
 #include "rays/cast/ray_scene.h"
 #include "rays/paths/surfaces.h"
 #include "scene/values/sky.h"
 #include "truth/bounce_samples.h"
 #include "truth/emitters.h"
+#include "truth/lamps.h"
 #include "truth/path_vertex.h"
 
 namespace lumel {

@@ -49,7 +49,7 @@ struct Running {
           lumels(lit_by(world.lumels, lamps(world.lumels))),
           options{.seed = seed},
           resident(world.scene, world.rays, lumels, {.method = options}),
-          particles(world.scene, world.atlas, world.rays, lumels),
+          particles(world),
           solver(resident.device, resident.world, lumels, resident.near, options, {},
                  lobes == Lobes::carried ? &particles : nullptr)
     {
@@ -84,8 +84,7 @@ struct Running {
     {
         View view = view_of(world.scene.cameras.front());
         view.transform[3].x += sideways;
-        const Surfaces surfaces(world.scene);
-        const Seen points = look(view, 24, 24, 1, world.rays, surfaces, {});
+        const Seen points = look(view, 24, 24, 1, world.rays, world.surfaces, {});
         const std::vector<float> brightness = solver.brightness();
         solver.look_at(points.glossy, brightness,
                        {points.first, std::uint64_t(kFrameSteps) * 16, 0});
@@ -218,7 +217,7 @@ struct Turned {
                 }),
           options{.scheme = scheme},
           resident(world.scene, world.rays, world.lumels, {.method = options}),
-          particles(world.scene, world.atlas, world.rays, world.lumels)
+          particles(world)
     {
     }
 

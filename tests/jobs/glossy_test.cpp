@@ -30,7 +30,7 @@ GlossySolution solve_room(const GlossyRoom& room, std::uint64_t shots)
     const SolverOptions options{.method = GlossyOptions{}, .max_shots = shots, .target_error = 0.0};
     const support::Resident resident(furnace.scene, furnace.rays, furnace.lumels, options);
     const auto& [near, device, world] = resident;
-    const LobeParticles particles(furnace.scene, furnace.atlas, furnace.rays, furnace.lumels);
+    const LobeParticles particles(furnace);
     GlossyIllumination solver(device, world, furnace.lumels, near,
                               std::get<GlossyOptions>(options.method), {}, &particles);
     EXPECT_TRUE(solve(solver, options));

@@ -76,7 +76,7 @@ std::vector<glm::vec3> solved(const SolveScene& world, std::uint64_t shots)
     const std::optional<Lumels> lit = shining(world.lumels, direct, Lobes::carried);
     const Lumels& lumels = lit ? *lit : world.lumels;
     const NearField near = near_field_for(world.scene, world.rays, lumels, options);
-    const LobeParticles particles(world.scene, world.atlas, world.rays, world.lumels);
+    const LobeParticles particles(world);
     GlossyIllumination solver(device, resident, lumels, near,
                               std::get<GlossyOptions>(options.method), direct, &particles);
     EXPECT_TRUE(solve(solver, options));

@@ -28,7 +28,7 @@ struct GlossyFurnace {
 
     LobeParticles::Carried carry(std::uint32_t seed) const
     {
-        const LobeParticles particles(world.scene, world.atlas, world.rays, world.lumels);
+        const LobeParticles particles(world);
         return particles.carry(emission_of(world.lumels), {}, 200000, seed);
     }
 
@@ -72,7 +72,7 @@ TEST(Particles, AreNotNeededWithoutLobes)
 {
     const GlossyFurnace furnace({glm::vec3(0.5f), glm::vec3(0.0f), 1.0f});
     const SolveScene& world = furnace.world;
-    EXPECT_FALSE(LobeParticles(world.scene, world.atlas, world.rays, world.lumels).any());
+    EXPECT_FALSE(LobeParticles(world).any());
     for (const glm::vec3& irradiance : furnace.carry(1).irradiance)
         EXPECT_EQ(irradiance, glm::vec3(0.0f));
 }

@@ -288,8 +288,7 @@ TEST(Senders, AddUpToTheLightOfALumel)
     for (std::uint32_t i = 0; i < irradiance.size(); i += 37) {
         if (world.lumels.lumels[i].flags & kLumelBuried)
             continue;
-        const Senders senders = find_senders(world.scene, world.rays, world.atlas, world.lumels,
-                                             irradiance, i, {.rays = 4096});
+        const Senders senders = find_senders(world, irradiance, i, {.rays = 4096});
         glm::vec3 sum(0.0f);
         for (const Contributor& sender : senders.list) {
             sum += sender.light;

@@ -20,6 +20,12 @@ struct RayOrigin {
     }
 };
 
+/// An origin at a point of a surface without cells.
+inline RayOrigin origin_at(const glm::vec3& position, const glm::vec3& normal)
+{
+    return {.position = position, .normal = normal, .geometric = normal, .cell = 0};
+}
+
 class RayOrigins {
 public:
     /// Pointers must outlive this. centre: all rays start at the lumel's centre. Without cells, all

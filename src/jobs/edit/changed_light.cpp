@@ -25,7 +25,7 @@
 #include "base/core/parallel.h"
 #include "base/core/pi.h"
 #include "base/core/sphere.h"
-#include "lights/lamps.h"
+#include "lights/shadow_rays.h"
 #include "rays/paths/samples.h"
 
 namespace lumel {
@@ -48,7 +48,7 @@ constexpr std::size_t kLumelsPerTask = 16, kLumelsPerStep = 4096;
 
 /// Dimension pairs of a sample's random numbers.
 constexpr std::uint32_t kReceiverPair = 0, kDirectionPair = 1, kLampPointPair = 2,
-                        kLampChoicePair = 3, kDiscPair = 4, kSeedPair = 5;
+                        kLampChoicePair = 3, kLampPair = 4, kSeedPair = 5;
 
 /// Cone of directions from a point to a sphere; from within it, all directions.
 struct Cone {
@@ -148,19 +148,19 @@ class LampPoints {
 public:
     LampPoints(const SeenScene& before, const SeenScene& now,
                const std::vector<std::uint32_t>& partner)
-        : density_before_(before.lumels->lumels.size(), 0.0f),
-          density_now_(now.lumels->lumels.size(), 0.0f)
+        : density_before_(before.scene->lumels.lumels.size(), 0.0f),
+          density_now_(now.scene->lumels.lumels.size(), 0.0f)
     {
         std::vector<char> stays(density_before_.size(), 0);
         for (std::uint32_t i = 0; i < partner.size(); ++i) {
             const std::uint32_t j = partner[i];
             if (j != kNoLumel)
                 stays[j] = 1;
-            add(j, i, now.lumels->lumels[i].area, now.sent.emission[i]);
+            add(j, i, now.scene->lumels.lumels[i].area, now.sent.emission[i]);
         }
         for (std::uint32_t j = 0; j < stays.size(); ++j)
             if (!stays[j])
-                add(j, kNoLumel, before.lumels->lumels[j].area, before.sent.emission[j]);
+                add(j, kNoLumel, before.scene->lumels.lumels[j].area, before.sent.emission[j]);
         if (entries_.empty())
             return;
         const double whole = entries_.back().sum;
@@ -221,11 +221,11 @@ public:
           wanted_(wanted),
           balls_(balls),
           options_(options),
-          world_before_(*before.scene, *before.rays, *before.lumels),
-          world_now_(*now.scene, *now.rays, *now.lumels),
+          world_before_(before.scene->scene, before.scene->rays, before.scene->lumels),
+          world_now_(now.scene->scene, now.scene->rays, now.scene->lumels),
           lamp_points_(before, now, partner),
-          lamps_(*before.scene),
-          ray_offset_(std::max(before.rays->ray_offset(), now.rays->ray_offset()))
+          lamps_(before.scene->scene, before.scene->surfaces, before.scene->extent(), kLampsAlone),
+          ray_offset_(std::max(before.scene->rays.ray_offset(), now.scene->rays.ray_offset()))
     {
     }
 
@@ -251,7 +251,7 @@ private:
     const ChangedLightOptions& options_;
     WorldLumels world_before_, world_now_;
     LampPoints lamp_points_;
-    Lamps lamps_;
+    LightSources lamps_;
     float ray_offset_;
 };
 
@@ -324,10 +324,10 @@ Met Gatherer::meet(const SeenScene& seen, const Receiver& receiver, const glm::v
 {
     RayHit hit;
     ++*receiver.rays;
-    if (!seen.rays->closest(from, direction, 0.0f, kFar, seed, hit))
-        return {.reflected = hit.tint * sky_radiance(before_.scene->sky, direction)};
+    if (!seen.scene->rays.closest(from, direction, 0.0f, kFar, seed, hit))
+        return {.reflected = hit.tint * sky_radiance(before_.scene->scene.sky, direction)};
     const std::uint32_t j = seen.hits->lumel(hit);
-    if (j == HitLumels::kNone || (seen.lumels->lumels[j].flags & kLumelBuried) != 0)
+    if (j == HitLumels::kNone || (seen.scene->lumels.lumels[j].flags & kLumelBuried) != 0)
         return {};
     const float per_area = is_now ? lamp_points_.density_now(j) : lamp_points_.density_before(j);
     const float cosine = std::abs(glm::dot(hit.normal, direction));
@@ -393,7 +393,7 @@ glm::vec3 Gatherer::from_lamp_points(const Receiver& receiver) const
         glm::vec3 radiance(0.0f);
         const auto transmittance = [&](const SeenScene& seen) {
             ++*receiver.rays;
-            return seen.rays->transmittance(x.position, x.position + to, ray_offset_, seed);
+            return seen.scene->rays.transmittance(x.position, x.position + to, ray_offset_, seed);
         };
         if (is_now)
             radiance += transmittance(now_) * now_.sent.emission[lamp.now];
@@ -411,23 +411,21 @@ glm::vec3 Gatherer::from_lamps(const Receiver& receiver) const
     for (std::uint32_t k = 0; k < points; ++k) {
         const PathSamples samples(receiver.stream, k);
         const LumelPoint x = point_of(receiver, samples);
+        const RayOrigin start = origin_at(x.position, x.normal);
         for (std::size_t l = 0; l < lamps_.count(); ++l) {
-            const glm::vec2 at = samples.stratified(kDiscPair);
-            const glm::vec3 disc = on_sphere({0.5f, at.y}) * std::sqrt(at.x);
-            const LampSample lamp = lamps_.sample(l, x.position, glm::vec2(disc));
-            const float cosine = glm::dot(lamp.direction, x.normal);
-            if (!(cosine > 0.0f) || lamp.illuminance == glm::vec3(0.0f) ||
+            const SourceSample lamp = lamps_.sample(l, start, samples.stratified(kLampPair));
+            if (lamp.irradiance == glm::vec3(0.0f) ||
                 !may_be_hidden(receiver, x.position, lamp.direction, lamp.distance))
                 continue;
-            const std::uint32_t seed = samples.bits(kSeedPair);
-            const auto arrives = [&](const SeenScene& seen) {
+            const RaySpan ray = ray_towards(lamp, start, ray_offset_, samples.bits(kSeedPair));
+            const auto passes = [&](const SeenScene& seen) {
                 ++*receiver.rays;
-                return transmittance(*seen.rays, x.position, lamp, ray_offset_, seed);
+                return seen.scene->rays.transmittance(ray);
             };
-            glm::vec3 passed = arrives(now_);
+            glm::vec3 passed = passes(now_);
             if (!receiver.whole)
-                passed -= arrives(before_);
-            sum += passed * lamp.illuminance * cosine;
+                passed -= passes(before_);
+            sum += passed * lamp.irradiance;
         }
     }
     return points > 0 ? sum / float(points) : sum;

@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "atlas/near/hit_lumels.h"
-#include "atlas/packing/atlas.h"
+#include "atlas/prepare/solve_scene.h"
 #include "jobs/edit/matches.h"
 #include "jobs/edit/two_estimates.h"
-#include "rays/cast/ray_scene.h"
 
 namespace lumel {
 
@@ -25,11 +24,9 @@ struct SentLight {
     std::vector<glm::vec3> reflected;  ///< [N] ρH [lm/m²]
 };
 
-/// A scene for ray tracing. All members must outlive it, unmoved.
+/// A scene with its light. The pointers must outlive it.
 struct SeenScene {
-    const Scene* scene;
-    const RayScene* rays;
-    const Lumels* lumels;
+    const SolveScene* scene;
     const HitLumels* hits;
     SentLight sent;
 };

@@ -133,9 +133,8 @@ TwoEstimates Correction::gather(const std::vector<Wanted>& wanted, ChangedLightO
 {
     options.seed = seed_of(baked_.solver.method);
     options.centre = rule_of(baked_.solver.method) == SampleRule::centre;
-    const SolveScene &was = edit_.before, &is = edit_.now;
-    const SeenScene before{&was.scene, &was.rays, &was.lumels, &hits_before_, sent_before()};
-    const SeenScene now{&is.scene, &is.rays, &is.lumels, &hits_now_, sent_now()};
+    const SeenScene before{&edit_.before, &hits_before_, sent_before()};
+    const SeenScene now{&edit_.now, &hits_now_, sent_now()};
     ChangedLight light =
         gather_changed_light(before, now, edit_.partner, wanted, edit_.balls, options,
                              [&](double fraction) { watch_.follow(fraction, 0); });

@@ -174,8 +174,7 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
 
     stages.begin("rays");
     const Senders senders =
-        find_senders(prepared.scene, prepared.rays, prepared.atlas, prepared.lumels, irradiance,
-                     lumel, {.seed = seed_of(bake.record.solver.method)});
+        find_senders(prepared, irradiance, lumel, {.seed = seed_of(bake.record.solver.method)});
     WhySummary summary = summary_of(prepared, lumel, senders);
     summary.page = pages.at(glm::vec2(texel));
     summary.texel = texel - pages.corner(summary.page);

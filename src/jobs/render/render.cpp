@@ -103,8 +103,7 @@ std::vector<glm::vec3> shoot_for(GlossyIllumination& solver, const Seen& seen,
 
 /// Light of the lobes by shooters and rays.
 std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, const Setting& setting,
-                               const Surfaces& surfaces, const LitScene& lit,
-                               const RenderOptions& options, Stages& stages)
+                               const LitScene& lit, const RenderOptions& options, Stages& stages)
 {
     // Complete iterations for every set of points.
     const std::uint64_t round = seen.sets * std::uint64_t(solver.batch());
@@ -122,7 +121,7 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
                                .shooters = shots > 0 ? sampling.shooters() : 0.0f,
                                .seed = seed_of(options.bake.solver.method)};
     const std::vector<glm::vec3> along =
-        gather_along_lobes(seen.glossy, setting.prepared.rays, surfaces, lit, senders, lobes,
+        gather_along_lobes(seen.glossy, lit, senders, lobes,
                            [&](double fraction) { return stages.progress(fraction); });
     for (std::size_t g = 0; g < along.size(); ++g)
         reflected[g] += along[g];
@@ -136,8 +135,7 @@ std::vector<glm::vec3> look_up_accumulated(GlossyIllumination& solver, const Lum
     const SideMaps texture =
         finish_sides(prepared.scene, prepared.atlas, prepared.lumels,
                      by_lumel(sight, solver.eye_radiance(), prepared.lumels.lumels.size()));
-    return look_up(seen, prepared.scene, prepared.atlas, prepared.lumels, texture.front,
-                   texture.back);
+    return look_up(seen, prepared, texture.front, texture.back);
 }
 
 /// Divides colours by alpha, as for PNG.
@@ -247,15 +245,14 @@ Made shoot(Lit& frame, Lit* before, const gpu::Device& device, const RenderOptio
     if (dump)
         write_dump(*dump, device, setting, irradiance, options.bake.solver);
     const SideMaps maps = finish_sides(prepared.scene, prepared.atlas, prepared.lumels, irradiance);
-    const Surfaces surfaces(prepared.scene);
-    const LitScene lit(prepared.scene, prepared.atlas, prepared.lumels, maps.front, maps.back);
+    const LitScene lit(prepared, maps.front, maps.back);
     stages.begin("looking");
-    const Seen seen =
-        look(frame.view, options.width, options.height, options.sets, prepared.rays, surfaces,
-             prepared.scene.sky, [&](double fraction) { return stages.progress(fraction); });
+    const Seen seen = look(frame.view, options.width, options.height, options.sets, prepared.rays,
+                           prepared.surfaces, prepared.scene.sky,
+                           [&](double fraction) { return stages.progress(fraction); });
     Image image = compose(seen, lit,
                           papers ? look_up_accumulated(solver, sight, seen, prepared)
-                                 : reflect(solver, seen, setting, surfaces, lit, options, stages));
+                                 : reflect(solver, seen, setting, lit, options, stages));
     stages.end();
     device.check_validation();
     const Results results{.shots = solver.state().shots,

@@ -109,7 +109,7 @@ std::optional<LobeParticles> particles_for(const SolveScene& prepared, const Sol
 {
     std::optional<LobeParticles> particles;
     if (method_of(options.method).materials == MaterialModel::glossy && !is_papers(options.method))
-        particles.emplace(prepared.scene, prepared.atlas, prepared.rays, prepared.lumels);
+        particles.emplace(prepared);
     return particles;
 }
 

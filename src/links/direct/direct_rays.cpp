@@ -35,7 +35,7 @@ DirectRays::DirectRays(const SolveScene& scene, std::uint32_t seed, double targe
     : target_error_(target_error),
       known_(irradiance_sum(known)),
       work_(scene, {cast_on_host(scene.rays)}, SampleRule::area, as_they_come,
-            {.only_surfaces = true, .instances = instances}),
+            {.lamps = false, .sky = false, .instances = instances}),
       finder_(work_, PathSamples::hash(seed, kDirectStream))
 {
 }

@@ -23,7 +23,7 @@
 #include <numbers>
 
 #include "base/core/parallel.h"
-#include "lights/lamp_choice.h"
+#include "lights/source_choice.h"
 #include "methods/glossy/phong.h"
 #include "rays/paths/directions.h"
 
@@ -85,18 +85,17 @@ struct LobeParticles::Sought {
     glm::vec3 irradiance{0.0f};  ///< [lx]
 };
 
-LobeParticles::LobeParticles(const Scene& scene, const Atlas& atlas, const RayScene& rays,
-                             const Lumels& lumels)
-    : rays_(&rays),
-      lumels_(&lumels),
-      world_(scene, rays, lumels),
-      surfaces_(scene),
-      hits_(scene, atlas, lumels),
-      lamps_(scene),
-      any_(has_lobes(lumels))
+LobeParticles::LobeParticles(const SolveScene& scene)
+    : rays_(&scene.rays),
+      lumels_(&scene.lumels),
+      surfaces_(&scene.surfaces),
+      world_(scene.scene, scene.rays, scene.lumels),
+      hits_(scene.scene, scene.atlas, scene.lumels),
+      lamps_(scene.scene, scene.surfaces, scene.extent(), kLampsAlone),
+      any_(has_lobes(scene.lumels))
 {
-    if (!scene.sky.empty())
-        sky_.emplace(scene.sky);
+    if (!scene.scene.sky.empty())
+        sky_.emplace(scene.scene.sky);
     if (sky_ && sky_->empty())
         sky_.reset();
 }
@@ -105,27 +104,23 @@ LobeParticles::Sought LobeParticles::seek_light(const LumelPoint& y,
                                                 const PathSamples& samples) const
 {
     const glm::vec2 at = samples.stratified(kDirectionPair);
-    const glm::vec2 disc = square_to_disc(at);
-    const glm::vec3 position = y.position + rays_->ray_offset() * y.normal;
-    LampChoice choice(double(samples.random(kChoicePair).x));
-    const auto offer = [&](const LampSample& light) {
-        choice.offer(light,
-                     std::max(glm::dot(y.normal, light.direction), 0.0f) * light.illuminance);
-    };
+    const RayOrigin start = origin_at(y.position + rays_->ray_offset() * y.normal, y.normal);
+    SourceChoice choice(double(samples.random(kChoicePair).x));
+    const auto offer = [&](const SourceSample& light) { choice.offer(light, light.irradiance); };
     if (sky_) {
         const SkySample sky = sky_->sample(at);
         if (sky.density > 0.0f)
             offer({.direction = sky.direction,
                    .distance = std::numeric_limits<float>::infinity(),
-                   .illuminance = sky.radiance / sky.density});
+                   .irradiance = sky.radiance * (start.cosine(sky.direction) / sky.density)});
     }
     for (std::size_t lamp = 0; lamp < lamps_.count(); ++lamp)
-        offer(lamps_.sample(lamp, position, disc));
+        offer(lamps_.sample(lamp, start, at));
     if (choice.empty())
         return {};
-    return {choice.lamp().direction,
+    return {choice.sample().direction,
             choice.light() *
-                transmittance(*rays_, position, choice.lamp(), 0.0f, samples.bits(kChoicePair))};
+                transmittance_to(*rays_, choice.sample(), start, samples.bits(kChoicePair))};
 }
 
 /// Traces a particle to its next hit; false if none.
@@ -138,7 +133,7 @@ bool LobeParticles::fly(const glm::vec3& position, const glm::vec3& direction,
     const std::uint32_t i = hits_.lumel(hit);
     if (i == HitLumels::kNone || (lumels_->lumels[i].flags & kLumelBuried) != 0)
         return false;
-    const Shading there = surfaces_.shade(hit);
+    const Shading there = surfaces_->shade(hit);
     arrival = {i,
                position + direction * hit.distance,
                direction,

@@ -8,9 +8,9 @@
 
 #include "atlas/near/hit_lumels.h"
 #include "atlas/near/world_lumels.h"
-#include "lights/lamps.h"
+#include "atlas/prepare/solve_scene.h"
+#include "lights/sources.h"
 #include "rays/paths/samples.h"
-#include "rays/paths/surfaces.h"
 #include "scene/values/sky.h"
 
 namespace lumel {
@@ -20,9 +20,8 @@ namespace lumel {
 /// at the first hits.
 class LobeParticles {
 public:
-    /// All arguments must outlive this, unmoved; uses gloss and areas of the lumels.
-    LobeParticles(const Scene& scene, const Atlas& atlas, const RayScene& rays,
-                  const Lumels& lumels);
+    /// The scene must outlive this, unmoved; uses gloss and areas of its lumels.
+    explicit LobeParticles(const SolveScene& scene);
 
     /// False if no lumel has a lobe.
     bool any() const { return any_; }
@@ -54,10 +53,10 @@ private:
 
     const RayScene* rays_;
     const Lumels* lumels_;
+    const Surfaces* surfaces_;
     WorldLumels world_;
-    Surfaces surfaces_;
     HitLumels hits_;
-    Lamps lamps_;
+    LightSources lamps_;
     std::optional<SkySampler> sky_;  ///< empty without a sky
     bool any_;
 };

@@ -38,7 +38,7 @@ public:
            const LightDirectionsOptions& options)
         : rays_(rays),
           surfaces_(scene),
-          sources_(scene, surfaces_, glm::distance(rays.low(), rays.high())),
+          sources_(scene, surfaces_, glm::distance(rays.low(), rays.high()), {.surfaces = false}),
           places_(scene, rays, lumels),
           starts_(places_, nullptr, rays.ray_offset(), options.rule == SampleRule::centre),
           normals_(normals),
@@ -46,8 +46,6 @@ public:
           seed_(options.seed),
           has_sky_(!scene.sky.empty())
     {
-        for (std::size_t s = 0; s < sources_.count(); ++s)
-            counts_.push_back(sources_.origin(s).part != LightSources::Part::material);
     }
 
     Coefficients find(std::size_t i) const
@@ -92,9 +90,7 @@ private:
 
     void add_lamps(std::size_t i, std::uint32_t stream, Coefficients& sums) const
     {
-        const RayAllocation shares =
-            allocate_rays(sources_, places_[i].centre, kLampRays,
-                          [&](std::size_t source) { return counts_[source] != 0; });
+        const RayAllocation shares = allocate_rays(sources_, places_[i].centre, kLampRays);
         for (const auto& [source, rays] : shares.own) {
             const std::uint32_t own =
                 PathSamples::hash(stream, kFirstSourceStream + std::uint32_t(source));
@@ -116,11 +112,11 @@ private:
         const RayOrigin start = starts_.start(i, samples.stratified(kReceiverPair));
         const SourceSample sample = sources_.sample(source, start, samples.stratified(kLampPair));
         const float cosine = start.cosine(sample.direction);
-        if (!(cosine > 0.0f) || sample.irradiance == glm::vec3(0.0f))
-            return;
-        const glm::vec3 transmittance = rays_.transmittance(
-            ray_towards(sample, start, rays_.ray_offset(), samples.bits(kRaySeedPair)));
-        add(i, sample.direction, transmittance * sample.irradiance * (weight / cosine), sums);
+        if (cosine > 0.0f)
+            add(i, sample.direction,
+                transmittance_to(rays_, sample, start, samples.bits(kRaySeedPair)) *
+                    sample.irradiance * (weight / cosine),
+                sums);
     }
 
     const RayScene& rays_;

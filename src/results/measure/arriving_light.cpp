@@ -82,9 +82,7 @@ glm::vec3 ArrivingLight::met_along(const glm::vec3& position, const glm::vec3& d
 glm::vec3 ArrivingLight::transmittance(const RayOrigin& start, const SourceSample& sample,
                                        std::uint32_t seed) const
 {
-    if (sample.irradiance == glm::vec3(0.0f))
-        return glm::vec3(0.0f);
-    return rays_.transmittance(ray_towards(sample, start, rays_.ray_offset(), seed));
+    return transmittance_to(rays_, sample, start, seed);
 }
 
 }  // namespace lumel

@@ -18,7 +18,7 @@
 #include "base/core/frame.h"
 #include "base/core/luminance.h"
 #include "base/core/pi.h"
-#include "lights/lamps.h"
+#include "lights/shadow_rays.h"
 #include "rays/paths/directions.h"
 #include "rays/paths/samples.h"
 
@@ -59,18 +59,18 @@ struct Sum {
 
 class SenderSearch {
 public:
-    SenderSearch(const Scene& scene, const RayScene& rays, const Atlas& atlas, const Lumels& lumels,
-                 std::span<const glm::vec3> irradiance, std::uint32_t lumel,
-                 const SenderOptions& options)
-        : scene_(scene),
-          rays_(rays),
-          lumels_(lumels),
+    SenderSearch(const SolveScene& scene, std::span<const glm::vec3> irradiance,
+                 std::uint32_t lumel, const SenderOptions& options)
+        : scene_(scene.scene),
+          rays_(scene.rays),
+          lumels_(scene.lumels),
           irradiance_(irradiance),
           lumel_(lumel),
           options_(options),
-          world_(scene, rays, lumels),
-          hits_(scene, atlas, lumels),
-          cell_(glm::distance(rays.low(), rays.high()) / options.cells)
+          world_(scene.scene, scene.rays, scene.lumels),
+          hits_(scene.scene, scene.atlas, scene.lumels),
+          lamps_(scene.scene, scene.surfaces, scene.extent(), kLampsAlone),
+          cell_(scene.extent() / options.cells)
     {
     }
 
@@ -152,37 +152,31 @@ private:
 
     void add_lamps(Senders& senders) const
     {
-        const Lamps lamps(scene_);
-        std::size_t lamp = 0;
-        for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) {
-            if (!shines(scene_.lights[i]))
-                continue;
-            const glm::vec3 light = light_of(lamps, lamp++);
+        for (std::size_t l = 0; l < lamps_.count(); ++l) {
+            const glm::vec3 light = light_of(l);
             if (light == glm::vec3(0.0f))
                 continue;
+            const LightSources::SourceInfo lamp = lamps_.origin(l);
             Contributor& sender = senders.list.emplace_back(
-                Contributor{.kind = Contributor::Kind::lamp, .index = i, .light = light});
-            if (scene_.lights[i].kind != PunctualLight::Kind::directional) {
-                sender.place = glm::vec3(scene_.lights[i].transform[3]);
+                Contributor{.kind = Contributor::Kind::lamp, .index = lamp.index, .light = light});
+            if (!lamp.sun) {
+                sender.place = lamp.centre;
                 sender.distance = glm::distance(sender.place, world_[lumel_].centre);
             }
         }
     }
 
-    glm::vec3 light_of(const Lamps& lamps, std::size_t lamp) const
+    glm::vec3 light_of(std::size_t lamp) const
     {
         glm::vec3 sum(0.0f);
         for (std::uint32_t k = 0; k < kLampPoints; ++k) {
             const PathSamples samples(options_.seed, k);
             const LumelPoint point = start(samples);
-            const LampSample toward = lamps.sample(
-                lamp, point.position, square_to_disc(samples.stratified(kSenderDirectionPair)));
-            const float cosine = glm::dot(point.normal, toward.direction);
-            if (!(cosine > 0.0f))
-                continue;
-            const glm::vec3 passes =
-                transmittance(rays_, point.position, toward, 0.0f, samples.bits(kSenderSeedPair));
-            sum += cosine * passes * toward.illuminance;
+            const RayOrigin origin = origin_at(point.position, point.normal);
+            const SourceSample sample =
+                lamps_.sample(lamp, origin, samples.stratified(kSenderDirectionPair));
+            sum += transmittance_to(rays_, sample, origin, samples.bits(kSenderSeedPair)) *
+                   sample.irradiance;
         }
         return sum / float(kLampPoints);
     }
@@ -215,6 +209,7 @@ private:
     const SenderOptions& options_;
     WorldLumels world_;
     HitLumels hits_;
+    LightSources lamps_;
     float cell_;  ///< side [m]
     std::map<Place, Sum> surfaces_;
     glm::vec3 sky_{0.0f};
@@ -222,11 +217,10 @@ private:
 
 }  // namespace
 
-Senders find_senders(const Scene& scene, const RayScene& rays, const Atlas& atlas,
-                     const Lumels& lumels, std::span<const glm::vec3> irradiance,
+Senders find_senders(const SolveScene& scene, std::span<const glm::vec3> irradiance,
                      std::uint32_t lumel, const SenderOptions& options)
 {
-    return SenderSearch(scene, rays, atlas, lumels, irradiance, lumel, options).find();
+    return SenderSearch(scene, irradiance, lumel, options).find();
 }
 
 }  // namespace lumel

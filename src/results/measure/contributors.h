@@ -5,9 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "atlas/packing/atlas.h"
-#include "rays/cast/ray_scene.h"
-#include "scene/values/scene.h"
+#include "atlas/prepare/solve_scene.h"
 
 namespace lumel {
 
@@ -35,8 +33,7 @@ struct Senders {
 
 /// Traces rays from a lumel: surfaces hit send E + ρH, with H [N] [lx]; lamps are sampled
 /// separately. Treats light solved with gloss as diffuse.
-Senders find_senders(const Scene& scene, const RayScene& rays, const Atlas& atlas,
-                     const Lumels& lumels, std::span<const glm::vec3> irradiance,
+Senders find_senders(const SolveScene& scene, std::span<const glm::vec3> irradiance,
                      std::uint32_t lumel, const SenderOptions& options);
 
 }  // namespace lumel

@@ -150,8 +150,7 @@ void LightProbe::add_sample(std::size_t source, const glm::vec3& position, const
     for (const float side : {1.0f, -1.0f}) {
         if (side < 0.0f && !halves.both)
             break;
-        const glm::vec3 axis = side * halves.axis;
-        const RayOrigin start{.position = position, .normal = axis, .geometric = axis, .cell = 0};
+        const RayOrigin start = origin_at(position, side * halves.axis);
         const SourceSample sample = light_.sources().sample(source, start, at);
         const float cosine = start.cosine(sample.direction);
         if (cosine > 0.0f)

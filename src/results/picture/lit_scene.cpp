@@ -5,11 +5,10 @@
 
 namespace lumel {
 
-LitScene::LitScene(const Scene& scene, const Atlas& atlas, const Lumels& lumels, const Image& front,
-                   const Image& back)
+LitScene::LitScene(const SolveScene& scene, const Image& front, const Image& back)
     : scene_(&scene),
-      lumels_(scene, atlas, lumels),
-      lamps_(scene),
+      lumels_(scene.scene, scene.atlas, scene.lumels),
+      lamps_(scene.scene, scene.surfaces, scene.extent(), kLampsAlone),
       front_map_(&front),
       back_map_(back.values.empty() ? &front : &back)
 {
@@ -32,7 +31,7 @@ glm::vec3 LitScene::irradiance(const RayHit& hit) const
 
 glm::vec3 LitScene::sky(const glm::vec3& direction) const
 {
-    return sky_radiance(scene_->sky, direction);
+    return sky_radiance(scene_->scene.sky, direction);
 }
 
 }  // namespace lumel

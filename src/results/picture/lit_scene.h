@@ -4,10 +4,9 @@
 #include <cstdint>
 
 #include "atlas/near/hit_lumels.h"
-#include "atlas/packing/atlas.h"
+#include "atlas/prepare/solve_scene.h"
 #include "base/core/image.h"
-#include "lights/lamps.h"
-#include "rays/cast/ray_scene.h"
+#include "lights/sources.h"
 
 namespace lumel {
 
@@ -15,8 +14,10 @@ namespace lumel {
 class LitScene {
 public:
     /// The maps hold the finished irradiance of each side [lx]; back: empty if equal to `front`.
-    LitScene(const Scene& scene, const Atlas& atlas, const Lumels& lumels, const Image& front,
-             const Image& back);
+    LitScene(const SolveScene& scene, const Image& front, const Image& back);
+
+    const RayScene& rays() const { return scene_->rays; }
+    const Surfaces& surfaces() const { return scene_->surfaces; }
 
     /// H on the side that was hit, bilinear [lx].
     glm::vec3 irradiance(const RayHit& hit) const;
@@ -24,15 +25,15 @@ public:
     /// Radiance of the sky in a unit direction [cd/m²].
     glm::vec3 sky(const glm::vec3& direction) const;
 
-    const Lamps& lamps() const { return lamps_; }
+    const LightSources& lamps() const { return lamps_; }
 
     /// Index of the lumel on the side that was hit; HitLumels::kNone if there is none.
     std::uint32_t lumel(const RayHit& hit) const { return lumels_.lumel(hit); }
 
 private:
-    const Scene* scene_;
+    const SolveScene* scene_;
     HitLumels lumels_;
-    Lamps lamps_;
+    LightSources lamps_;
     const Image *front_map_, *back_map_;
 };
 

@@ -18,7 +18,7 @@
 
 #include "base/core/parallel.h"
 #include "base/core/pi.h"
-#include "lights/lamp_choice.h"
+#include "lights/source_choice.h"
 #include "methods/glossy/phong.h"
 #include "rays/paths/directions.h"
 #include "rays/paths/samples.h"
@@ -40,14 +40,13 @@ constexpr std::size_t kPointsPerStep = 65536;
 
 class LobeRays {
 public:
-    LobeRays(const RayScene& rays, const Surfaces& surfaces, const LitScene& lit,
-             const PowerDraw& senders, const LobeRayOptions& options)
-        : rays_(rays),
-          surfaces_(surfaces),
+    LobeRays(const LitScene& lit, const PowerDraw& senders, const LobeRayOptions& options)
+        : rays_(lit.rays()),
+          surfaces_(lit.surfaces()),
           lit_(lit),
           senders_(senders),
           options_(options),
-          ray_offset_(rays.ray_offset())
+          ray_offset_(rays_.ray_offset())
     {
     }
 
@@ -169,24 +168,23 @@ private:
     glm::vec3 lamplight(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
                         std::uint32_t pair) const
     {
-        const Lamps& lamps = lit_.lamps();
-        const glm::vec3 origin = x.position + ray_offset_ * x.facing;
-        const glm::vec2 disc = square_to_disc(samples.random(pair + 4));
+        const LightSources& lamps = lit_.lamps();
+        const RayOrigin start{.position = x.position + ray_offset_ * x.facing,
+                              .normal = x.normal,
+                              .geometric = x.facing,
+                              .cell = 0};
         const float cos_eye = glm::dot(x.normal, x.toward_eye);
-        LampChoice choice(double(samples.random(pair + 5).x));
+        SourceChoice choice(double(samples.random(pair + 5).x));
         for (std::size_t i = 0; i < lamps.count(); ++i) {
-            const LampSample lamp = lamps.sample(i, origin, disc);
-            const float cos_in = glm::dot(x.normal, lamp.direction);
-            if (cos_in <= 0.0f || glm::dot(x.facing, lamp.direction) <= 0.0f)
-                continue;
-            const float lobe =
-                phong_lobe(cos_in, cos_eye, glm::dot(mirror, lamp.direction), x.shininess);
-            choice.offer(lamp, x.specular * lamp.illuminance * (lobe * cos_in));
+            const SourceSample lamp = lamps.sample(i, start, samples.random(pair + 4));
+            const float lobe = phong_lobe(start.cosine(lamp.direction), cos_eye,
+                                          glm::dot(mirror, lamp.direction), x.shininess);
+            choice.offer(lamp, x.specular * lamp.irradiance * lobe);
         }
         if (choice.empty())
             return glm::vec3(0.0f);
         return choice.light() *
-               transmittance(rays_, origin, choice.lamp(), 0.0f, samples.bits(pair + 4));
+               transmittance_to(rays_, choice.sample(), start, samples.bits(pair + 4));
     }
 
     /// Weight by Russian roulette before another lobe: 0 for rays that end.
@@ -208,12 +206,11 @@ private:
 
 }  // namespace
 
-std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,
-                                          const Surfaces& surfaces, const LitScene& lit,
+std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const LitScene& lit,
                                           const PowerDraw& senders, const LobeRayOptions& options,
                                           const std::function<bool(double)>& progress)
 {
-    const LobeRays lobes(rays, surfaces, lit, senders, options);
+    const LobeRays lobes(lit, senders, options);
     std::vector<glm::vec3> radiance(points.size(), glm::vec3(0.0f));
     // One ray of every point at a time: with the weights of the requested number, fewer are correct
     // too.

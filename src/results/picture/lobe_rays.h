@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "methods/glossy/eye_image.h"
-#include "rays/paths/surfaces.h"
 #include "results/picture/lit_scene.h"
 #include "solve/shooting/power_draw.h"
 
@@ -22,8 +21,7 @@ struct LobeRayOptions {
 /// [P] cd/m² toward the eye, weighted against the shooters by the balance heuristic [VG95].
 /// senders: with the brightness of the shooters' weights. `progress` receives the fraction done and
 /// returns false to stop; all points then have equally many rays, at least one.
-std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,
-                                          const Surfaces& surfaces, const LitScene& lit,
+std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const LitScene& lit,
                                           const PowerDraw& senders, const LobeRayOptions& options,
                                           const std::function<bool(double)>& progress = {});
 

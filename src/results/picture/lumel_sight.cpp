@@ -63,10 +63,10 @@ std::vector<glm::vec3> by_lumel(const LumelSight& sight, std::span<const glm::ve
     return values;
 }
 
-std::vector<glm::vec3> look_up(const Seen& seen, const Scene& scene, const Atlas& atlas,
-                               const Lumels& lumels, const Image& front, const Image& back)
+std::vector<glm::vec3> look_up(const Seen& seen, const SolveScene& scene, const Image& front,
+                               const Image& back)
 {
-    const LitScene texture(scene, atlas, lumels, front, back);
+    const LitScene texture(scene, front, back);
     std::vector<glm::vec3> radiance;
     radiance.reserve(seen.glossy.size());
     for (const std::uint32_t point : seen.index) {

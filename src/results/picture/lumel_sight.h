@@ -28,7 +28,7 @@ std::vector<glm::vec3> by_lumel(const LumelSight& sight, std::span<const glm::ve
 
 /// The texture's light at the glossy points that an eye sees [G] [cd/m²]. front, back: its maps, as
 /// in LitScene.
-std::vector<glm::vec3> look_up(const Seen& seen, const Scene& scene, const Atlas& atlas,
-                               const Lumels& lumels, const Image& front, const Image& back);
+std::vector<glm::vec3> look_up(const Seen& seen, const SolveScene& scene, const Image& front,
+                               const Image& back);
 
 }  // namespace lumel

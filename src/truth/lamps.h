@@ -1,8 +1,6 @@
 #pragma once
-// Punctual lights of a scene, sampled by rays on the CPU for path tracing, `update` and `why`.
-// Bakes compute their light on the GPU (raster/shadow_maps/lamps.h) or with links
-// (lights/sources.h). That code is separate on purpose: the reference tests it. Equations:
-// lamps.cpp.
+// Punctual lights of a scene, sampled by the path tracer. What it judges has code of its own:
+// lights/sources.h for rays, raster/shadow_maps/lamps.h for shadow maps. Equations: lamps.cpp.
 
 #include <cstddef>
 #include <vector>

@@ -1,21 +1,21 @@
 #pragma once
-// Reservoir sampling of one lamp by its unoccluded light.
+// Reservoir sampling of one source by its unoccluded light.
 
 #include <glm/glm.hpp>
 
 #include "base/core/luminance.h"
-#include "lights/lamps.h"
+#include "lights/shadow_rays.h"
 
 namespace lumel {
 
-/// Keeps each offered lamp with a probability proportional to the luminance of its light.
-class LampChoice {
+/// Keeps each offered source with a probability proportional to the luminance of its light.
+class SourceChoice {
 public:
     /// number: uniform sample in [0, 1).
-    explicit LampChoice(double number) : number_(number) {}
+    explicit SourceChoice(double number) : number_(number) {}
 
-    /// light: unoccluded light of the lamp.
-    void offer(const LampSample& lamp, const glm::vec3& light)
+    /// light: of the sample, unoccluded.
+    void offer(const SourceSample& sample, const glm::vec3& light)
     {
         const double weight = luminance(light);
         if (!(weight > 0.0))
@@ -23,7 +23,7 @@ public:
         total_ += weight;
         const double share = weight / total_;
         if (number_ < share) {
-            lamp_ = lamp;
+            sample_ = sample;
             light_ = light;
             weight_ = weight;
             number_ /= share;
@@ -33,12 +33,12 @@ public:
     }
 
     bool empty() const { return !(total_ > 0.0); }
-    const LampSample& lamp() const { return lamp_; }
-    /// Estimate of the light of all lamps: that of the chosen one / its probability.
+    const SourceSample& sample() const { return sample_; }
+    /// Estimate of the light of all sources: that of the chosen one / its probability.
     glm::vec3 light() const { return light_ * float(total_ / weight_); }
 
 private:
-    LampSample lamp_;
+    SourceSample sample_;
     glm::vec3 light_{0.0f};
     double weight_ = 0.0, total_ = 0.0, number_;
 };

@@ -11,7 +11,7 @@
 //
 // also for α = 0, a point or a parallel beam. Points inside the ball receive nothing.
 
-#include "lights/lamps.h"
+#include "truth/lamps.h"
 
 #include <algorithm>
 #include <cmath>
