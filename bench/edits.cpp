@@ -128,7 +128,7 @@ double error_of(const std::vector<glm::vec3>& light, const std::vector<glm::vec3
 
 /// The error of the solution and of what is shown, against the mean of some of 256 rays each, whose
 /// direct light is the same.
-void compare(const LiveLinks& live, const LumelScene& laid_out, LiveLinksOptions options,
+void compare(const LiveLinks& live, const SolveScene& laid_out, LiveLinksOptions options,
              std::uint32_t seeds)
 {
     const std::vector<glm::vec3> solved = live.irradiance(), shown = live.shown();
@@ -136,7 +136,7 @@ void compare(const LiveLinks& live, const LumelScene& laid_out, LiveLinksOptions
     options.rays = 256;
     options.filter = false;
     for (options.seed = 1; options.seed <= seeds; ++options.seed) {
-        LiveLinks one(laid_out, options);
+        LiveLinks one(copy_of(laid_out), options);
         one.settle();
         const std::vector<glm::vec3> light = one.irradiance();
         for (std::size_t i = 0; i < truth.size(); ++i)
@@ -172,12 +172,12 @@ void time_edits(const Settings& settings)
         if (edits.back().what == "move")
             options.things.push_back(edits.back().name);
     }
-    const LumelScene laid_out =
+    const std::unique_ptr<SolveScene> laid_out =
         lay_out(scene_of(settings), {.size = settings.size}, options.things);
     Cost first{.links = 1.0, .direct = 1.0};
     Stopwatch watch;
     watch.start();
-    LiveLinks live(laid_out, options);
+    LiveLinks live(copy_of(*laid_out), options);
     watch.stop();
     first.edit = 1e3 * watch.cpu;
     finish(live, watch, first);
@@ -189,12 +189,11 @@ void time_edits(const Settings& settings)
     print("all anew", first);
     fmt::print("{:<24} {:>9.1f}\n", "show", time_shown(live));
     if (settings.edit_truth > 0)
-        compare(live, laid_out, options, settings.edit_truth);
-    const LumelScene& scene = laid_out;
+        compare(live, *laid_out, options, settings.edit_truth);
     std::vector<std::vector<std::uint32_t>> instances;
     for (const std::string& name : options.things)
-        instances.push_back({find_instance(scene.scene, name)});
-    const DynamicRayScene rays(scene.scene, instances);
+        instances.push_back({find_instance(laid_out->scene, name)});
+    const DynamicRayScene rays(*laid_out, instances);
     std::size_t thing = 0;
     for (const Edit& edit : edits) {
         std::vector<Cost> costs;

@@ -156,8 +156,9 @@ void over_links(const Settings& settings, const std::vector<Change>& changes)
     for (const Change& change : changes)
         if (is_move(change))
             options.things.push_back(change.name);
-    LumelScene laid_out = lay_out(scene_of(settings), {.size = settings.size}, options.things);
-    const Scene scene = laid_out.scene;
+    std::unique_ptr<SolveScene> laid_out =
+        lay_out(scene_of(settings), {.size = settings.size}, options.things);
+    const Scene scene = laid_out->scene;
     std::optional<LiveLinks> live;
     const auto light = [&] { return live->irradiance(); };
     const auto step = [&] { return live->advance(0.0).at_rest; };

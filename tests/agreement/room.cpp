@@ -81,13 +81,13 @@ RoomFiles::RoomFiles()
 Reference::Reference(const std::string& scene_path, const std::vector<std::string>& movable)
     : world_(lay_out(read_gltf(scene_path), {.size = kSide}, movable))
 {
-    const RayScene rays(world_.scene);
+    const RayScene rays(world_->scene);
     for (std::uint32_t h = 0; h < 2; ++h)
-        halves_[h] = reference_irradiance(world_.scene, rays, world_.lumels,
+        halves_[h] = reference_irradiance(world_->scene, rays, world_->lumels,
                                           {.samples_per_lumel = kSamples, .seed = 99 + h});
-    for (std::size_t i = 0; i < world_.lumels.lumels.size(); ++i)
-        if (!is_buried(world_.lumels.lumels[i]))
-            lumel_at_[place_of(world_.lumels.lumels[i])] = i;
+    for (std::size_t i = 0; i < world_->lumels.lumels.size(); ++i)
+        if (!is_buried(world_->lumels.lumels[i]))
+            lumel_at_[place_of(world_->lumels.lumels[i])] = i;
 }
 
 Deviation Reference::of(const Found& found) const
@@ -98,7 +98,8 @@ Deviation Reference::of(const Found& found) const
         const auto mine = lumel_at_.find(place_of(lumel));
         if (is_buried(lumel) || mine == lumel_at_.end())
             continue;
-        if (glm::distance(lumel.position, world_.lumels.lumels[mine->second].position) > kSamePlace)
+        if (glm::distance(lumel.position, world_->lumels.lumels[mine->second].position) >
+            kSamePlace)
             throw std::runtime_error(fmt::format("lumel {} is elsewhere in the scene", i));
         const glm::dvec3 value(found.irradiance[i]), one(halves_[0][mine->second]),
             two(halves_[1][mine->second]);

@@ -53,7 +53,7 @@ public:
     Deviation of(const Found& found) const;
 
 private:
-    LumelScene world_;
+    std::unique_ptr<SolveScene> world_;
     std::vector<glm::vec3> halves_[2];
     std::map<std::uint64_t, std::size_t> lumel_at_;  ///< by texel and side
 };

@@ -87,7 +87,7 @@ TEST_P(StatedOverKeptLinks, IsTheRealError)
         KeptLightOptions options{
             .rays = GetParam().rays, .seed = seed, .filter = GetParam().filter};
         options.light.seed = seed;
-        LinkRelighter light(world.scene, world.atlas, world.lumels, options);
+        LinkRelighter light(world, options);
         const Light found = light.irradiance();
         stated += light.error().all / kSeeds;
         real += support::error_alone(found, truth[0], truth[1]) / kSeeds;
@@ -106,7 +106,7 @@ TEST(ErrorOverKeptLinks, OfNoLightIsNotKnown)
     for (Material& material : scene.materials)
         material.emitted = glm::vec3(0.0f);
     const SolveScene world(std::move(scene), AtlasOptions{.size = 16});
-    LinkRelighter light(world.scene, world.atlas, world.lumels, {.rays = 4});
+    LinkRelighter light(world, {.rays = 4});
     light.irradiance();
     EXPECT_LT(light.error().all, 0.0);
     EXPECT_LT(light.error().dark, 0.0);

@@ -51,8 +51,8 @@ void expect_as_anew(const EditedScene& edit, const Kept& kept)
     const KeptLightOptions options{.rays = 16, .seed = kept.links.seed};
     const StoredLinks mine = links_for(edit, kept.links);
     const SolveScene& now = edit.now;
-    LinkRelighter over(now.scene, now.atlas, now.lumels, options, &mine);
-    LinkRelighter anew(now.scene, now.atlas, now.lumels, options);
+    LinkRelighter over(now, options, &mine);
+    LinkRelighter anew(now, options);
     EXPECT_GT(over.links().traced().all(), 0u);
     EXPECT_LT(3 * over.links().traced().all(), anew.links().traced().all());
     std::size_t different = 0;
@@ -101,8 +101,7 @@ TEST(KeptUpdate, OfThingsInAnotherOrderTracesNone)
     std::reverse(now.instances.begin(), now.instances.end());
     const EditedScene edit = kept.edited(std::move(now));
     const StoredLinks mine = links_for(edit, kept.links);
-    const LinkRelighter over(edit.now.scene, edit.now.atlas, edit.now.lumels,
-                             {.rays = 16, .seed = kept.links.seed}, &mine);
+    const LinkRelighter over(edit.now, {.rays = 16, .seed = kept.links.seed}, &mine);
     EXPECT_EQ(over.links().traced().all(), 0u);
 }
 

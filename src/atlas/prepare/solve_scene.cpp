@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "atlas/near/buried.h"
+#include "atlas/near/still_part.h"
 #include "atlas/prepare/lit_sides.h"
 #include "base/core/error.h"
 
@@ -32,6 +33,16 @@ bool gives_light(const Scene& scene)
     return std::any_of(scene.lights.begin(), scene.lights.end(), shines) ||
            std::any_of(scene.instances.begin(), scene.instances.end(), emits) ||
            !std::all_of(scene.sky.radiance.begin(), scene.sky.radiance.end(), is_black);
+}
+
+std::vector<std::uint32_t> those_that_stay(const Scene& scene,
+                                           const std::vector<std::uint32_t>& movers)
+{
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+        if (std::find(movers.begin(), movers.end(), i) == movers.end())
+            result.push_back(i);
+    return result;
 }
 
 }  // namespace
@@ -82,9 +93,10 @@ SolveScene::SolveScene(Scene given, const LayOut& lay_out, const Bury& bury,
                 : mark_buried(scene, rays, lumels, {}, part_of(progress, kLifted, 1.0));
 }
 
-SolveScene::SolveScene(Scene given, Atlas laid_out, Lumels made)
+SolveScene::SolveScene(Scene given, Atlas laid_out, Lumels made, std::vector<std::uint32_t> moving)
     : scene(std::move(given)),
-      rays(scene),
+      movers(std::move(moving)),
+      rays(scene, those_that_stay(scene, movers)),
       surfaces(scene),
       atlas(std::move(laid_out)),
       lumels(std::move(made)),
@@ -95,6 +107,31 @@ SolveScene::SolveScene(Scene given, Atlas laid_out, Lumels made)
 SolveScene::SolveScene(const std::string& scene_path, const AtlasOptions& options)
     : SolveScene(read_gltf(scene_path), options)
 {
+}
+
+std::unique_ptr<SolveScene> lay_out_movers(Scene scene, const AtlasOptions& options,
+                                           const std::vector<std::uint32_t>& movers)
+{
+    std::vector<char> moves(scene.instances.size(), 0);
+    for (const std::uint32_t instance : movers) {
+        if (instance >= moves.size())
+            throw Error(ErrorKind::input, scene.path,
+                        "has no instance " + std::to_string(instance));
+        moves[instance] = 1;
+    }
+    std::vector<std::uint32_t> ascending;
+    for (std::uint32_t i = 0; i < moves.size(); ++i)
+        if (moves[i])
+            ascending.push_back(i);
+    Atlas atlas = make_atlas(scene, options);
+    Lumels lumels = make_lumels(scene, atlas, moves);
+    return std::make_unique<SolveScene>(std::move(scene), std::move(atlas), std::move(lumels),
+                                        std::move(ascending));
+}
+
+std::unique_ptr<SolveScene> copy_of(const SolveScene& from)
+{
+    return std::make_unique<SolveScene>(from.scene, from.atlas, from.lumels, from.movers);
 }
 
 }  // namespace lumel

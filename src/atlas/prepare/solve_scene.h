@@ -2,6 +2,7 @@
 // A scene made ready: rays, surfaces, atlas and lumels, the inputs of every method.
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "atlas/packing/atlas.h"
@@ -28,8 +29,9 @@ struct SolveScene {
     using Bury = std::function<std::vector<float>(const Scene&, const RayScene&, Lumels&)>;
     SolveScene(Scene scene, const LayOut& lay_out, const Bury& bury = {},
                const ProgressCallback& progress = {});
-    /// Uses an atlas and lumels that were made of the scene.
-    SolveScene(Scene scene, Atlas atlas, Lumels lumels);
+    /// Uses an atlas and lumels that were made of the scene, in which instances `movers` may move:
+    /// `rays` leaves them out.
+    SolveScene(Scene scene, Atlas atlas, Lumels lumels, std::vector<std::uint32_t> movers = {});
     /// Reads the scene first.
     SolveScene(const std::string& scene_path, const AtlasOptions& options);
     SolveScene(const SolveScene&) = delete;
@@ -39,11 +41,20 @@ struct SolveScene {
     float extent() const { return glm::distance(rays.low(), rays.high()); }
 
     Scene scene;
-    RayScene rays;
+    std::vector<std::uint32_t> movers;  ///< instances, ascending
+    RayScene rays;                      ///< of all others
     Surfaces surfaces;
     Atlas atlas;
     Lumels lumels;
     std::vector<float> open;  ///< [N] share of each lumel's area that is not buried
 };
+
+/// Builds the atlas and lumels of a scene in which instances `movers` may move: what stays buries
+/// the lumels that stay. Throws Error.
+std::unique_ptr<SolveScene> lay_out_movers(Scene scene, const AtlasOptions& options,
+                                           const std::vector<std::uint32_t>& movers);
+
+/// The same again, on its own.
+std::unique_ptr<SolveScene> copy_of(const SolveScene& scene);
 
 }  // namespace lumel

@@ -58,8 +58,7 @@ KeptLinksSolver::KeptLinksSolver(const SolveScene& prepared, const KeptLightOpti
                                  Stages& stages, const StoredLinks* kept)
 {
     stages.begin("links");
-    light_.emplace(prepared.scene, prepared.atlas, prepared.lumels, options, kept,
-                   stages.callback());
+    light_.emplace(prepared, options, kept, stages.callback());
     stages.begin("solving");
     irradiance_ = light_->irradiance(stages.callback());
 }

@@ -17,7 +17,8 @@ std::vector<glm::mat4> places_of(const Scene& scene)
     return places;
 }
 
-LumelScene laid_out(const Scene& start, const Animation& animation, const AtlasOptions& atlas)
+std::unique_ptr<SolveScene> laid_out(const Scene& start, const Animation& animation,
+                                     const AtlasOptions& atlas)
 {
     return lay_out_movers(at_its_brightest(start, animation), atlas, movers_of(animation, start));
 }

@@ -83,7 +83,7 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
     SceneLights lights(world.scene, world.lumels);
     check_states(states, states_path, [&](const LightState& state) { lights.check(state); });
     LinkRelighter light(
-        world.scene, world.atlas, world.lumels,
+        world,
         kept_light_options(baked.links.rays, std::get<LinksOptions>(baked.record.solver.method)),
         &baked.links, progress);
     OutputFolder output((fs::path(folder) / "states").string());

@@ -29,19 +29,19 @@ glm::vec3 by_rays(const LumelSweeps& sweeps, std::span<const glm::vec3> sky, std
 DisplayFilter::DisplayFilter(const LinkContext& place, const LumelLinks& links)
     : place_(place),
       links_(links),
-      by_side_(lumels_by_side(place.lumels)),
-      places_(place.lumels.lumels.size()),
+      by_side_(lumels_by_side(place.scene.lumels)),
+      places_(place.lumels().size()),
       noise_left_(places_.size(), 1.0f)
 {
-    const auto across = std::uint32_t((place.lumels.width + kTile - 1) / kTile),
-               down = std::uint32_t((place.lumels.height + kTile - 1) / kTile);
+    const auto across = std::uint32_t((place.scene.lumels.width + kTile - 1) / kTile),
+               down = std::uint32_t((place.scene.lumels.height + kTile - 1) / kTile);
     std::vector<char> used(std::size_t(across) * down * 2, 0);
     const auto tile_of = [&](const Lumel& lumel) {
-        const std::uint32_t width = std::uint32_t(place.lumels.width);
+        const std::uint32_t width = std::uint32_t(place.scene.lumels.width);
         const std::uint32_t x = lumel.texel % width / kTile, y = lumel.texel / width / kTile;
         return 2 * (y * across + x) + (is_back(lumel) ? 1 : 0);
     };
-    for (const Lumel& lumel : place.lumels.lumels)
+    for (const Lumel& lumel : place.lumels())
         used[tile_of(lumel)] = 1;
     for (std::uint32_t t = 0; t < used.size(); ++t)
         if (used[t])
@@ -147,16 +147,16 @@ void DisplayFilter::find_nearest(std::size_t i)
 /// Bits of the neighbours on the same chart and side across which the filter may step.
 std::uint8_t DisplayFilter::steps_of(std::size_t i) const
 {
-    const Lumel& lumel = place_.lumels.lumels[i];
+    const Lumel& lumel = place_.lumels()[i];
     if (lumel.flags & kLumelBuried)
         return 0;
-    const int width = place_.lumels.width, x = int(lumel.texel) % width,
+    const int width = place_.scene.lumels.width, x = int(lumel.texel) % width,
               y = int(lumel.texel) / width;
     unsigned steps = 0;
     for (unsigned s = 0; s < kSteps.size(); ++s) {
-        const std::uint32_t j = lit_lumel_at(place_.lumels, by_side_, x + kSteps[s].x,
+        const std::uint32_t j = lit_lumel_at(place_.scene.lumels, by_side_, x + kSteps[s].x,
                                              y + kSteps[s].y, is_back(lumel) ? 1 : 0);
-        if (j != kNoLumel && place_.lumels.lumels[j].chart == lumel.chart && may_step(i, j))
+        if (j != kNoLumel && place_.lumels()[j].chart == lumel.chart && may_step(i, j))
             steps |= 1u << s;
     }
     return std::uint8_t(steps);
@@ -168,7 +168,7 @@ bool DisplayFilter::may_step(std::size_t i, std::size_t j) const
     const WorldLumel &a = place_.world[i], &b = place_.world[j];
     if (std::min(nearest_[i], nearest_[j]) > kMayStandBetween * glm::distance(a.centre, b.centre))
         return true;
-    const float ray_offset = std::max(kLift * std::max(a.size, b.size), place_.ray_offset);
+    const float ray_offset = std::max(kLift * std::max(a.size, b.size), place_.rays.ray_offset());
     return place_.rays.is_clear(ray_between(a.centre + ray_offset * a.normal,
                                             b.centre + ray_offset * b.normal, 0.0f,
                                             std::uint32_t(i)));
@@ -181,9 +181,9 @@ void DisplayFilter::fill(const Tile& of, FilterTile& tile) const
         for (int x = -kHalo; x < kTile + kHalo; ++x) {
             const std::size_t t = wide_at(x, y);
             const std::uint32_t i = tile.lumel[t] =
-                lit_lumel_at(place_.lumels, by_side_, of.left + x, of.top + y, of.side);
+                lit_lumel_at(place_.scene.lumels, by_side_, of.left + x, of.top + y, of.side);
             const bool is = i != kNoLumel;
-            tile.chart[t] = is ? std::int32_t(place_.lumels.lumels[i].chart) : -1;
+            tile.chart[t] = is ? std::int32_t(place_.lumels()[i].chart) : -1;
             tile.steps[t] = is ? steps_[i] : std::uint8_t(0);
             tile.size[t] = is ? place_.world[i].size : 0.0f;
             tile.nearest[t] = is ? nearest_[i] : 0.0f;
@@ -286,7 +286,7 @@ glm::vec3 DisplayFilter::irradiance(const LumelSweeps& sweeps, std::span<const g
 float DisplayFilter::noise(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
                            std::size_t i) const
 {
-    if (place_.lumels.lumels[i].flags & kLumelBuried)
+    if (place_.is_buried(i))
         return 0.0f;
     if (places_[i].tile == ~0u)
         return 1.0f;

@@ -1,5 +1,10 @@
 #include "links/live/dynamic_ray_scene.h"
 
+#include <algorithm>
+#include <stdexcept>
+
+#include "base/core/error.h"
+
 namespace lumel {
 namespace {
 
@@ -13,26 +18,32 @@ std::vector<std::uint32_t> things_by_instance(const Scene& scene,
     return result;
 }
 
-std::vector<std::uint32_t> those_that_stay(const std::vector<std::uint32_t>& object_of)
+void refuse_coloured_glass(const Scene& scene)
 {
-    std::vector<std::uint32_t> result;
-    for (std::uint32_t i = 0; i < object_of.size(); ++i)
-        if (object_of[i] == DynamicRayScene::kStatic)
-            result.push_back(i);
-    return result;
+    for (const Material& material : scene.materials)
+        if (is_coloured_glass(material))
+            throw Error(ErrorKind::input, scene.path,
+                        "has coloured glass (material \"" + material.name +
+                            "\"), which links do not support; make it white, or opaque");
 }
 
 }  // namespace
 
-DynamicRayScene::DynamicRayScene(const Scene& scene, std::vector<std::vector<std::uint32_t>> things)
-    : scene_(&scene),
+DynamicRayScene::DynamicRayScene(const SolveScene& scene,
+                                 std::vector<std::vector<std::uint32_t>> things)
+    : scene_(&scene.scene),
       things_(std::move(things)),
-      thing_of_(things_by_instance(scene, things_)),
-      still_(scene, those_that_stay(thing_of_)),
-      ray_offset_(still_.ray_offset())
+      thing_of_(things_by_instance(scene.scene, things_)),
+      still_(&scene.rays),
+      ray_offset_(still_->ray_offset())
 {
+    refuse_coloured_glass(scene.scene);
+    for (std::uint32_t i = 0; i < thing_of_.size(); ++i)
+        if ((thing_of_[i] != kStatic) !=
+            std::binary_search(scene.movers.begin(), scene.movers.end(), i))
+            throw std::logic_error("the things of a live scene are not the movers of its rays");
     for (const std::vector<std::uint32_t>& instances : things_) {
-        const RayScene& tree = trees_.emplace_back(scene, instances);
+        const RayScene& tree = trees_.emplace_back(scene.scene, instances);
         boxes_.push_back({tree.low(), tree.high()});
     }
 }
@@ -46,7 +57,7 @@ void DynamicRayScene::place(std::size_t thing)
 bool DynamicRayScene::closest_but_for(std::size_t thing, const RaySpan& ray, RayHit& hit) const
 {
     RaySpan rest = ray;
-    bool any = still_.closest(rest, hit);
+    bool any = still_->closest(rest, hit);
     for (std::size_t t = 0; t < trees_.size(); ++t) {
         if (any)
             rest.far = hit.distance;
@@ -63,7 +74,7 @@ bool DynamicRayScene::is_clear(const RaySpan& ray) const
 
 bool DynamicRayScene::is_clear_but_for(std::size_t thing, const RaySpan& ray) const
 {
-    if (still_.transmittance(ray) == glm::vec3(0.0f))
+    if (still_->transmittance(ray) == glm::vec3(0.0f))
         return false;
     for (std::size_t t = 0; t < trees_.size(); ++t)
         if (t != thing && may_meet(t, ray) && trees_[t].transmittance(ray) == glm::vec3(0.0f))

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "atlas/prepare/solve_scene.h"
 #include "base/core/box.h"
-#include "rays/cast/ray_scene.h"
 
 namespace lumel {
 
@@ -14,9 +14,10 @@ namespace lumel {
 /// Moves never rebuild the scene's BVH, and each object can be queried alone.
 class DynamicRayScene {
 public:
-    /// things: the instances of each object. The scene must outlive this, unmoved. Throws
-    /// Error{device} if Embree cannot build a BVH.
-    DynamicRayScene(const Scene& scene, std::vector<std::vector<std::uint32_t>> things);
+    /// things: the instances of each object, together the movers of the scene, which must outlive
+    /// this. Throws Error{device} if Embree cannot build a BVH, Error{input} for coloured glass,
+    /// and std::logic_error for other things.
+    DynamicRayScene(const SolveScene& scene, std::vector<std::vector<std::uint32_t>> things);
 
     /// Rebuilds an object's BVH from the current transforms of its instances.
     void place(std::size_t thing);
@@ -43,7 +44,7 @@ public:
     const Box& box(std::size_t thing) const { return boxes_[thing]; }
     /// Distance of ray origins from surfaces, for any placement of objects [m].
     float ray_offset() const { return ray_offset_; }
-    const RayScene& still() const { return still_; }
+    const RayScene& still() const { return *still_; }
 
     static constexpr std::uint32_t kStatic = ~0u;
     /// The object that an instance belongs to, or kStatic.
@@ -55,7 +56,7 @@ private:
     const Scene* scene_;
     std::vector<std::vector<std::uint32_t>> things_;
     std::vector<std::uint32_t> thing_of_;  ///< [instances]
-    RayScene still_;
+    const RayScene* still_;
     float ray_offset_;             ///< [m]
     std::vector<RayScene> trees_;  ///< [things]
     std::vector<Box> boxes_;       ///< [things] their bounds

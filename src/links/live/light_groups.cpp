@@ -29,7 +29,7 @@ LightGroups::LightGroups(const LinkContext& place, const GroupedLightOptions& op
 {
     list_senders();
     const std::uint64_t of_one =
-        place.lumels.lumels.size() * sizeof(glm::vec3) * (options.halves ? 2 : 1);
+        place.lumels().size() * sizeof(glm::vec3) * (options.halves ? 2 : 1);
     const std::size_t fit = std::max<std::size_t>(std::size_t(options.most_bytes / of_one), 1);
     groups_.resize(std::min(fit, senders_.size()));
     for (std::uint32_t s = 0; s < senders_.size(); ++s)
@@ -110,14 +110,14 @@ void LightGroups::find_again(LightSources::Part part, std::uint32_t index)
 
 void LightGroups::make_room(Group& group) const
 {
-    group.light.resize(place_.lumels.lumels.size());
+    group.light.resize(place_.lumels().size());
     if (options_.halves)
         group.off.resize(group.light.size());
 }
 
 void LightGroups::find(Group& group, const ProgressCallback& progress)
 {
-    const std::size_t lumels = place_.lumels.lumels.size();
+    const std::size_t lumels = place_.lumels().size();
     make_room(group);
     parallel_steps(
         lumels, kFoundPerStep, kFoundPerTask,
@@ -189,7 +189,8 @@ bool LightGroups::may_cross(std::uint32_t source, std::size_t i, const Box& box)
         return box.may_meet(from, glm::normalize(glm::vec3(origin.sun->transform[2])), far,
                             reach + far * std::tan(origin.sun->angle));
     }
-    return box.may_lie_between(Box{from, from}.grown(reach), origin.box.grown(place_.ray_offset));
+    return box.may_lie_between(Box{from, from}.grown(reach),
+                               origin.box.grown(place_.rays.ray_offset()));
 }
 
 void LightGroups::find_at(Group& group, std::size_t i) const
@@ -203,7 +204,7 @@ void LightGroups::find_at(Group& group, std::size_t i) const
 LightGroups::Found LightGroups::light_of(const Group& group, std::size_t i) const
 {
     Found sum;
-    if (place_.lumels.lumels[i].flags & kLumelBuried)
+    if (place_.is_buried(i))
         return sum;
     for (const std::uint32_t s : group.senders)
         sum.add(light_of(senders_[s], i), group.is_shared() ? senders_[s].factor : glm::vec3(1.0f));
@@ -235,7 +236,7 @@ glm::vec3 LightGroups::transmittance(const RayOrigin& start, const SourceSample&
 {
     if (sample.irradiance == glm::vec3(0.0f))
         return glm::vec3(0.0f);
-    const RaySpan ray = ray_towards(sample, start, place_.ray_offset, seed);
+    const RaySpan ray = ray_towards(sample, start, place_.rays.ray_offset(), seed);
     return glm::vec3(place_.rays.is_clear(ray) ? 1.0f : 0.0f);
 }
 
@@ -268,7 +269,7 @@ LightGroups::Found LightGroups::by_many(const Emitter& sender, std::uint32_t str
     float total = 0.0f;
     for (std::size_t n = 0; n < running.size(); ++n)
         running[n] = total += place_.sources.sampling_weight(
-            sender.sources[n], place_.world[i].centre, place_.lumels.lumels[i].size);
+            sender.sources[n], place_.world[i].centre, place_.lumels()[i].size);
     glm::vec3 sum(0.0f), half(0.0f);
     for (std::uint32_t k = 0; k < options_.many_rays; ++k) {
         if (2 * k == options_.many_rays)
@@ -294,7 +295,7 @@ const std::vector<glm::vec3>& LightGroups::sum()
 {
     if (summed_)
         return sum_;
-    sum_.assign(place_.lumels.lumels.size(), glm::vec3(0.0f));
+    sum_.assign(place_.lumels().size(), glm::vec3(0.0f));
     for (const Group& group : groups_) {
         const glm::vec3 factor =
             group.is_shared() ? glm::vec3(1.0f) : senders_[group.senders.front()].factor;
@@ -307,7 +308,7 @@ const std::vector<glm::vec3>& LightGroups::sum()
 
 std::vector<glm::vec3> LightGroups::off() const
 {
-    std::vector<glm::vec3> sum(place_.lumels.lumels.size(), glm::vec3(0.0f));
+    std::vector<glm::vec3> sum(place_.lumels().size(), glm::vec3(0.0f));
     for (const Group& group : groups_)
         for (std::size_t i = 0; i < group.off.size(); ++i)
             sum[i] += group.off[i];

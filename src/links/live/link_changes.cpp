@@ -67,10 +67,10 @@ void mark_around(const Lumels& lumels, const std::vector<std::uint32_t>& by_side
 
 bool fits(const StoredLinks& kept, const LinkContext& place, std::uint32_t rays, std::uint32_t seed)
 {
-    return kept.rays == rays && kept.seed == seed && kept.ray_offset == place.ray_offset &&
-           kept.side == std::uint32_t(place.lumels.width) &&
-           kept.lumels.size() == place.lumels.lumels.size() &&
-           kept.instances.size() == place.scene.instances.size();
+    return kept.rays == rays && kept.seed == seed && kept.ray_offset == place.rays.ray_offset() &&
+           kept.side == std::uint32_t(place.scene.lumels.width) &&
+           kept.lumels.size() == place.lumels().size() &&
+           kept.instances.size() == place.scene.scene.instances.size();
 }
 
 }  // namespace
@@ -117,9 +117,9 @@ LinkChanges changes_since(const StoredLinks& kept, const LinkContext& place, std
     LinkChanges changes;
     if (!fits(kept, place, rays, seed))
         return changes;
-    const std::vector<Lumel>& lumels = place.lumels.lumels;
-    const std::vector<std::uint64_t> prints = lumel_hashes(place.world, place.lumels);
-    const std::vector<std::uint64_t> instances = instance_hashes(place.scene);
+    const std::vector<Lumel>& lumels = place.lumels();
+    const std::vector<std::uint64_t> prints = lumel_hashes(place.world, place.scene.lumels);
+    const std::vector<std::uint64_t> instances = instance_hashes(place.scene.scene);
     const std::size_t lost = lumels.size() + 2;  // absorbed on an instance
     changes.starts.resize(lumels.size());
     changes.ends.resize(kept.gone() + 1);
@@ -127,18 +127,18 @@ LinkChanges changes_since(const StoredLinks& kept, const LinkContext& place, std
     for (std::uint32_t i = 0; i < instances.size(); ++i)
         if (instances[i] != kept.instances[i]) {
             changes.ends[lost + i] = 1;
-            RayScene tree(place.scene, std::span(&i, 1));
+            RayScene tree(place.scene.scene, std::span(&i, 1));
             const Box box{tree.low(), tree.high()};
             changes.moved.push_back({std::move(tree), box});
         }
-    const std::vector<std::uint32_t> by_side = lumels_by_side(place.lumels);
+    const std::vector<std::uint32_t> by_side = lumels_by_side(place.scene.lumels);
     std::size_t starts = 0;
     for (std::size_t i = 0; i < lumels.size(); ++i) {
         const std::uint32_t instance = lumels[i].instance;
         if (prints[i] != kept.lumels[i]) {
             ++starts;
             changes.starts[i] = changes.ends[lost + instance] = 1;
-            mark_around(place.lumels, by_side, lumels[i], changes.ends);
+            mark_around(place.scene.lumels, by_side, lumels[i], changes.ends);
         }
         if (instances[instance] != kept.instances[instance])
             changes.ends[i] = 1;

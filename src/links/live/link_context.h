@@ -7,24 +7,24 @@
 namespace lumel {
 
 struct LinkContext {
-    const Scene& scene;
-    const Lumels& lumels;
+    const SolveScene& scene;
     const DynamicRayScene& rays;
-    const Surfaces& surfaces;
     const WorldLumels& world;
     const RayOrigins& starts;
     const LightSources& sources;
-    float ray_offset;  ///< distance of ray origins from surfaces [m]
+
+    const std::vector<Lumel>& lumels() const { return scene.lumels.lumels; }
+    bool is_buried(std::size_t lumel) const { return (lumels()[lumel].flags & kLumelBuried) != 0; }
 
     /// The object that a lumel is on, or DynamicRayScene::kStatic.
     std::uint32_t object_of(std::size_t lumel) const
     {
-        return rays.object_of(lumels.lumels[lumel].instance);
+        return rays.object_of(lumels()[lumel].instance);
     }
     /// Bounding radius of a lumel and its ray origins around its centre [m].
     float reach(std::size_t lumel) const
     {
-        return kReach * lumels.lumels[lumel].size + kLifts * ray_offset;
+        return kReach * lumels()[lumel].size + kLifts * rays.ray_offset();
     }
 
 private:

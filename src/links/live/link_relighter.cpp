@@ -14,43 +14,28 @@ constexpr double kDirect = 0.7, kSweeps = 0.3, kWeights = 0.3;
 
 }  // namespace
 
-const Scene& without_coloured_glass(const Scene& scene)
-{
-    for (const Material& material : scene.materials)
-        if (is_coloured_glass(material))
-            throw Error(ErrorKind::input, scene.path,
-                        "has coloured glass (material \"" + material.name +
-                            "\"), which links do not support; make it white, or opaque");
-    return scene;
-}
-
-LinkRelighter::LinkRelighter(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
-                             const KeptLightOptions& options, const StoredLinks* kept,
-                             const ProgressCallback& progress)
-    : scene_(without_coloured_glass(scene)),
-      atlas_(atlas),
-      lumels_(lumels),
+LinkRelighter::LinkRelighter(const SolveScene& scene, const KeptLightOptions& options,
+                             const StoredLinks* kept, const ProgressCallback& progress)
+    : scene_(scene),
       options_(options),
       rays_(scene, {}),
-      surfaces_(std::in_place, scene),
-      world_(scene, rays_.still(), lumels),
-      starts_(world_, nullptr, rays_.ray_offset(), false),
-      sources_(std::in_place, scene, *surfaces_,
-               glm::distance(rays_.still().low(), rays_.still().high())),
-      links_(place(), atlas, side_of_rays(options.rays), options.seed, kept, progress)
+      world_(scene.scene, scene.rays, scene.lumels),
+      starts_(world_, nullptr, scene.rays.ray_offset(), false),
+      sources_(std::in_place, scene.scene, scene.surfaces, scene.extent()),
+      links_(place(), side_of_rays(options.rays), options.seed, kept, progress)
 {
 }
 
 LinkContext LinkRelighter::place() const
 {
-    return {scene_, lumels_, rays_, *surfaces_, world_, starts_, *sources_, rays_.ray_offset()};
+    return {scene_, rays_, world_, starts_, *sources_};
 }
 
 /// Updates sources from the current materials, lamps and sky.
 void LinkRelighter::find_sources()
 {
-    surfaces_.emplace(scene_);
-    sources_.emplace(scene_, *surfaces_, glm::distance(rays_.still().low(), rays_.still().high()));
+    surfaces_.emplace(scene_.scene);
+    sources_.emplace(scene_.scene, *surfaces_, scene_.extent());
     links_.find_sky();
 }
 
@@ -63,7 +48,7 @@ std::vector<glm::vec3> LinkRelighter::irradiance(const ProgressCallback& progres
     const std::vector<glm::vec3>& sky = links_.sky_light();
     for (std::size_t i = 0; i < direct.size(); ++i) {
         direct[i] += sky[i];
-        albedo.push_back(lumels_.lumels[i].albedo);
+        albedo.push_back(scene_.lumels.lumels[i].albedo);
     }
     sweeps_.emplace(links_);
     sweeps_->begin(direct, albedo);
@@ -73,12 +58,12 @@ std::vector<glm::vec3> LinkRelighter::irradiance(const ProgressCallback& progres
     std::optional<DisplayFilter> filter;
     if (options_.filter)
         make_weights(filter.emplace(place(), links_), part_of(rest, 0.0, kWeights));
-    std::vector<glm::vec3> result(lumels_.lumels.size());
+    std::vector<glm::vec3> result(scene_.lumels.lumels.size());
     parallel_for(result.size(), kRelitPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             result[i] = filter ? filter->irradiance(*sweeps_, sky, i) : sweeps_->irradiance(i);
     });
-    error_ = error_of({links_, *sweeps_, lumels_.lumels, lamps, off, albedo, result},
+    error_ = error_of({links_, *sweeps_, scene_.lumels.lumels, lamps, off, albedo, result},
                       filter ? &*filter : nullptr, part_of(rest, kWeights, 1.0));
     notify(progress, 1.0);
     return result;
@@ -116,7 +101,7 @@ StoredLinks LinkRelighter::kept(const std::string& hash) const
 {
     StoredLinks kept;
     kept.scene_hash = hash;
-    keep_places(atlas_, kept);
+    keep_places(scene_.atlas, kept);
     links_.keep(kept);
     return kept;
 }

@@ -27,11 +27,10 @@ struct KeptLightOptions {
 /// bit for bit, whether links were traced or reused, and whatever was lit before. Runs on the CPU.
 class LinkRelighter {
 public:
-    /// All arguments must outlive this; lights, sky and emission of the scene may change. kept:
-    /// links of an earlier run, or null. Throws Error{input} for coloured glass.
-    LinkRelighter(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
-                  const KeptLightOptions& options, const StoredLinks* kept = nullptr,
-                  const ProgressCallback& progress = {});
+    /// The scene must outlive this; its lights, sky and emission may change. kept: links of an
+    /// earlier run, or null. Throws Error{input} for coloured glass.
+    LinkRelighter(const SolveScene& scene, const KeptLightOptions& options,
+                  const StoredLinks* kept = nullptr, const ProgressCallback& progress = {});
     LinkRelighter(const LinkRelighter&) = delete;
     LinkRelighter& operator=(const LinkRelighter&) = delete;
 
@@ -53,12 +52,10 @@ private:
     void settle(const ProgressCallback& progress);
     void make_weights(DisplayFilter& filter, const ProgressCallback& progress);
 
-    const Scene& scene_;
-    const Atlas& atlas_;
-    const Lumels& lumels_;
+    const SolveScene& scene_;
     const KeptLightOptions options_;
     DynamicRayScene rays_;
-    std::optional<Surfaces> surfaces_;
+    std::optional<Surfaces> surfaces_;  ///< with the emission of now
     WorldLumels world_;
     RayOrigins starts_;
     std::optional<LightSources> sources_;
@@ -66,8 +63,5 @@ private:
     std::optional<LumelSweeps> sweeps_;
     KeptError error_;
 };
-
-/// Returns the scene. Throws Error{input} if it has coloured glass.
-const Scene& without_coloured_glass(const Scene& scene);
 
 }  // namespace lumel

@@ -93,7 +93,8 @@ void check_index(std::uint32_t index, const All& all, const std::string& what)
 
 }  // namespace
 
-LumelScene lay_out(Scene scene, const AtlasOptions& options, const std::vector<std::string>& things)
+std::unique_ptr<SolveScene> lay_out(Scene scene, const AtlasOptions& options,
+                                    const std::vector<std::string>& things)
 {
     std::vector<std::uint32_t> movers;
     for (const std::vector<std::uint32_t>& instances : instances_of(scene, things, {}))
@@ -101,33 +102,17 @@ LumelScene lay_out(Scene scene, const AtlasOptions& options, const std::vector<s
     return lay_out_movers(std::move(scene), options, movers);
 }
 
-LumelScene lay_out_movers(Scene scene, const AtlasOptions& options,
-                          const std::vector<std::uint32_t>& movers)
-{
-    std::vector<char> moves(scene.instances.size(), 0);
-    for (const std::uint32_t instance : movers) {
-        if (instance >= moves.size())
-            throw Error(ErrorKind::input, scene.path,
-                        "has no instance " + std::to_string(instance));
-        moves[instance] = 1;
-    }
-    Atlas atlas = make_atlas(scene, options);
-    Lumels lumels = make_lumels(scene, atlas, moves);
-    return {std::move(scene), std::move(atlas), std::move(lumels)};
-}
-
-LiveLinks::LiveLinks(LumelScene laid_out, const LiveLinksOptions& options)
+LiveLinks::LiveLinks(std::unique_ptr<SolveScene> of, const LiveLinksOptions& options)
     : options_(options),
-      laid_out_(std::move(laid_out)),
+      scene_(std::move(of)),
       given_(transforms_of(scene())),
-      rays_(without_coloured_glass(scene()), instances_of(scene(), options.things, options.groups)),
-      surfaces_(scene()),
+      rays_(*scene_, instances_of(scene(), options.things, options.groups)),
       world_(scene(), rays_.still(), lumels()),
       starts_(world_, nullptr, rays_.ray_offset(), false),
       given_sky_(scene().sky),
-      sources_(std::in_place, scene(), surfaces_, extent()),
+      sources_(std::in_place, scene(), scene_->surfaces, scene_->extent()),
       lumels_of_(lumels_by_thing(lumels(), rays_)),
-      links_(place(), atlas(), side_of_rays(options.rays), options.seed),
+      links_(place(), side_of_rays(options.rays), options.seed),
       light_(place(), options.light),
       sweeps_(links_),
       paint_(lumels()),
@@ -137,16 +122,11 @@ LiveLinks::LiveLinks(LumelScene laid_out, const LiveLinksOptions& options)
 {
 }
 
-float LiveLinks::extent() const
-{
-    return glm::distance(rays_.still().low(), rays_.still().high());
-}
-
 LinkContext LiveLinks::place() const
 {
     if (rays_.still().parts() == 0)
         throw Error(ErrorKind::input, scene().path, "has no static geometry");
-    return {scene(), lumels(), rays_, surfaces_, world_, starts_, *sources_, rays_.ray_offset()};
+    return {*scene_, rays_, world_, starts_, *sources_};
 }
 
 void LiveLinks::set_lamp(const std::string& name, const glm::vec3& factor)
@@ -204,8 +184,8 @@ void LiveLinks::replace_sky(Sky sky, double angle)
 /// The Sky object keeps its address: others refer to it.
 void LiveLinks::place_sky(double angle)
 {
-    laid_out_.scene.sky = angle != 0.0 ? turned(given_sky_, angle) : given_sky_;
-    sources_.emplace(scene(), surfaces_, extent());
+    scene_->scene.sky = angle != 0.0 ? turned(given_sky_, angle) : given_sky_;
+    sources_.emplace(scene(), scene_->surfaces, scene_->extent());
     links_.find_sky();
     light_.find_again(Part::sky, 0);
     light_.set_factor(Part::sky, 0, sky_factor_);  // its bright part may be new
@@ -239,7 +219,7 @@ void LiveLinks::move_lamp(const std::string& name, const glm::mat4& transform)
 void LiveLinks::move_light(std::uint32_t light, const glm::mat4& transform)
 {
     check_index(light, scene().lights, "light");
-    laid_out_.scene.lights[light].transform = transform;
+    scene_->scene.lights[light].transform = transform;
     sources_->place();
     light_.find_again(Part::light, light);
     edited_ = true;
@@ -258,7 +238,7 @@ void LiveLinks::put(std::uint32_t thing, const glm::mat4& motion)
 {
     motions_[thing] = motion;
     for (const std::uint32_t instance : rays_.instances(thing))
-        laid_out_.scene.instances[instance].transform = motion * given_[instance];
+        scene_->scene.instances[instance].transform = motion * given_[instance];
     rays_.place(thing);
     world_.place(scene(), lumels(), lumels_of_[thing]);
 }

@@ -7,10 +7,12 @@
 // or changing an albedo takes sweeps over the links and no rays. Moving an object retraces the rays
 // that start on it, ended on it or now hit it.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "atlas/prepare/solve_scene.h"
 #include "links/live/albedo_overrides.h"
 #include "links/live/display_filter.h"
 #include "links/live/light_groups.h"
@@ -33,19 +35,9 @@ struct LiveLinksOptions {
     bool filter = true;  ///< makes filter weights for shown()
 };
 
-struct LumelScene {
-    Scene scene;
-    Atlas atlas;
-    Lumels lumels;
-};
-
-/// Builds the atlas and lumels of a scene. Lumels under or inside static geometry are buried.
-/// Throws Error.
-LumelScene lay_out(Scene scene, const AtlasOptions& options,
-                   const std::vector<std::string>& things);
-/// Takes movable objects by instance.
-LumelScene lay_out_movers(Scene scene, const AtlasOptions& options,
-                          const std::vector<std::uint32_t>& movers);
+/// As lay_out_movers(), for all instances of these names.
+std::unique_ptr<SolveScene> lay_out(Scene scene, const AtlasOptions& options,
+                                    const std::vector<std::string>& things);
 
 /// Work done after moves.
 struct Moved {
@@ -77,7 +69,7 @@ class LiveLinks {
 public:
     /// Traces all links and all direct light. Throws Error{input} if an object does not exist,
     /// nothing is static, or there is coloured glass.
-    LiveLinks(LumelScene laid_out, const LiveLinksOptions& options);
+    LiveLinks(std::unique_ptr<SolveScene> scene, const LiveLinksOptions& options);
     LiveLinks(const LiveLinks&) = delete;
     LiveLinks& operator=(const LiveLinks&) = delete;
 
@@ -124,9 +116,10 @@ public:
     /// noise of shadow rays and the filter's bias. 1 until light has first converged.
     std::vector<float> error_estimate() const;
 
-    const Scene& scene() const { return laid_out_.scene; }
-    const Atlas& atlas() const { return laid_out_.atlas; }
-    const Lumels& lumels() const { return laid_out_.lumels; }
+    const SolveScene& solve_scene() const { return *scene_; }
+    const Scene& scene() const { return scene_->scene; }
+    const Atlas& atlas() const { return scene_->atlas; }
+    const Lumels& lumels() const { return scene_->lumels; }
     const LumelLinks& links() const { return links_; }
     /// ρ [N], with albedo overrides.
     const std::vector<glm::vec3>& albedo() const { return paint_.albedo(); }
@@ -146,7 +139,6 @@ private:
         std::size_t links = 0;   ///< number of lumels of `order` that are retraced
     };
 
-    float extent() const;
     LinkContext place() const;
     std::uint32_t thing(const std::string& name) const;
     void put(std::uint32_t thing, const glm::mat4& motion);
@@ -164,10 +156,9 @@ private:
     bool is_at_rest();
 
     LiveLinksOptions options_;
-    LumelScene laid_out_;
+    std::unique_ptr<SolveScene> scene_;
     std::vector<glm::mat4> given_;  ///< [instances] transforms of the given scene
     DynamicRayScene rays_;
-    Surfaces surfaces_;
     WorldLumels world_;
     RayOrigins starts_;
     Sky given_sky_;

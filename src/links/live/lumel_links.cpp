@@ -81,14 +81,13 @@ private:
     glm::mat3 frame_;
 };
 
-LumelLinks::LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32_t side,
-                       std::uint32_t seed, const StoredLinks* kept,
-                       const ProgressCallback& progress)
+LumelLinks::LumelLinks(const LinkContext& place, std::uint32_t side, std::uint32_t seed,
+                       const StoredLinks* kept, const ProgressCallback& progress)
     : place_(place),
-      near_(place.scene, atlas, place.lumels),
+      near_(place.scene.scene, place.scene.atlas, place.scene.lumels),
       side_(side),
       seed_(seed),
-      lumels_(std::uint32_t(place.lumels.lumels.size())),
+      lumels_(std::uint32_t(place.lumels().size())),
       links_(std::size_t(lumels_) * rays()),
       on_thing_(lumels_ + 2, DynamicRayScene::kStatic),
       sky_light_(lumels_),
@@ -96,7 +95,7 @@ LumelLinks::LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32
 {
     for (std::uint32_t i = 0; i < lumels_; ++i)
         on_thing_[i] = place_.object_of(i);
-    for (std::uint32_t i = 0; i < place_.scene.instances.size(); ++i)
+    for (std::uint32_t i = 0; i < place_.scene.scene.instances.size(); ++i)
         on_thing_.push_back(place_.rays.object_of(i));
     if (kept)
         if (const LinkChanges changes = changes_since(*kept, place_, rays(), seed_); !changes.all) {
@@ -153,7 +152,7 @@ Retraced LumelLinks::take_over(std::size_t i, const LinkChanges& changes)
         count.started = rays();
         return count;
     }
-    if (place_.lumels.lumels[i].flags & kLumelBuried)
+    if (place_.is_buried(i))
         return count;
     std::uint32_t* links = &links_[i * rays()];
     const Rays rays_of(*this, i);
@@ -195,7 +194,7 @@ void LumelLinks::find_sky()
 {
     parallel_for(lumels_, kTracedPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
-            if (!(place_.lumels.lumels[i].flags & kLumelBuried))
+            if (!place_.is_buried(i))
                 find_sky(Rays(*this, i), i);
     });
 }
@@ -204,9 +203,9 @@ void LumelLinks::keep(StoredLinks& kept) const
 {
     kept.rays = rays();
     kept.seed = seed_;
-    kept.ray_offset = place_.ray_offset;
-    kept.lumels = lumel_hashes(place_.world, place_.lumels);
-    kept.instances = instance_hashes(place_.scene);
+    kept.ray_offset = place_.rays.ray_offset();
+    kept.lumels = lumel_hashes(place_.world, place_.scene.lumels);
+    kept.instances = instance_hashes(place_.scene.scene);
     kept.links = links_;
 }
 
@@ -249,8 +248,8 @@ std::optional<std::uint32_t> LumelLinks::end_by(const Rays& rays, std::uint32_t 
 
 std::uint32_t LumelLinks::end_at(const RayHit& hit) const
 {
-    const std::size_t surface = place_.surfaces.index(hit.instance, hit.primitive);
-    const bool reflects = hit.front || place_.surfaces.all()[surface].double_sided;
+    const std::size_t surface = place_.scene.surfaces.index(hit.instance, hit.primitive);
+    const bool reflects = hit.front || place_.scene.surfaces.all()[surface].double_sided;
     const std::uint32_t lumel = reflects ? near_.lumel(hit) : kNoLumel;
     if (lumel != kNoLumel)
         return lumel;
@@ -260,7 +259,7 @@ std::uint32_t LumelLinks::end_at(const RayHit& hit) const
 void LumelLinks::trace(std::size_t i)
 {
     std::uint32_t* links = &links_[i * rays()];
-    if (place_.lumels.lumels[i].flags & kLumelBuried) {
+    if (place_.is_buried(i)) {
         std::fill(links, links + rays(), lost());
         return;
     }
@@ -272,7 +271,7 @@ void LumelLinks::trace(std::size_t i)
 
 void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
 {
-    if (place_.scene.sky.empty())
+    if (place_.scene.scene.sky.empty())
         return;
     glm::vec3 sums[2] = {glm::vec3(0.0f), glm::vec3(0.0f)};
     const std::span<const std::uint32_t> links = of(i);
@@ -287,7 +286,7 @@ void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
 /// Sky light of one ray if it hits the sky, scaled as if it were the only one [lx].
 glm::vec3 LumelLinks::sky_by(std::size_t lumel, std::uint32_t ray) const
 {
-    if (place_.scene.sky.empty())
+    if (place_.scene.scene.sky.empty())
         return glm::vec3(0.0f);
     return std::numbers::pi_v<float> * place_.sources.dim_sky(direction(lumel, ray));
 }
@@ -296,8 +295,8 @@ glm::vec3 LumelLinks::sky_by(std::size_t lumel, std::uint32_t ray) const
 /// removed.
 std::uint32_t LumelLinks::key_of(std::size_t i) const
 {
-    const Lumel& lumel = place_.lumels.lumels[i];
-    const auto width = std::uint32_t(place_.lumels.width);
+    const Lumel& lumel = place_.lumels()[i];
+    const auto width = std::uint32_t(place_.scene.lumels.width);
     return PathSamples::hash(
         PathSamples::hash(PathSamples::hash(seed_, lumel.texel % width), lumel.texel / width),
         lumel.flags & kLumelBack ? 1u : 0u);
@@ -330,7 +329,7 @@ Retraced LumelLinks::follow(std::uint32_t thing, std::span<const std::uint32_t> 
 Retraced LumelLinks::follow(std::size_t i, std::uint32_t thing, const Box& box)
 {
     Retraced count;
-    if (place_.lumels.lumels[i].flags & kLumelBuried)
+    if (place_.is_buried(i))
         return count;
     if (on_thing_[i] == thing) {
         trace(i);

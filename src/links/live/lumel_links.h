@@ -36,10 +36,10 @@ struct LinkChanges;
 /// depends only on its number and on the atlas position of its lumel, so it can be regenerated.
 class LumelLinks {
 public:
-    /// Traces all links. side: grid side, a power of two. The members of `place` and `atlas` must
+    /// Traces all links. side: grid side, a power of two. The members of `place` must
     /// outlive this. kept: links of the same scene, or of one with objects elsewhere: only links
     /// that can have changed are traced, with the same result.
-    LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32_t side, std::uint32_t seed,
+    LumelLinks(const LinkContext& place, std::uint32_t side, std::uint32_t seed,
                const StoredLinks* kept = nullptr, const ProgressCallback& progress = {});
 
     /// Retraces the rays of these lumels that start on `thing`, ended on it or hit it now. After

@@ -17,8 +17,9 @@ namespace {
 /// factor of 1e-6), near enough for floats.
 constexpr float kAway = 1000.0f;
 
-LumelScene laid_out(const Scene& scene, const Animation& animation,
-                    const std::vector<MovableObject>& things, const AtlasOptions& atlas)
+std::unique_ptr<SolveScene> laid_out(const Scene& scene, const Animation& animation,
+                                     const std::vector<MovableObject>& things,
+                                     const AtlasOptions& atlas)
 {
     std::vector<std::uint32_t> movers;
     for (const MovableObject& thing : things)

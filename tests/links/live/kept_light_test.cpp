@@ -35,14 +35,14 @@ Scene with_block_moved(Scene scene)
 struct Lit {
     explicit Lit(Scene scene, const StoredLinks* kept = nullptr)
         : prepared(std::move(scene), AtlasOptions{.size = kSide}),
-          light(prepared.scene, prepared.atlas, prepared.lumels, {.rays = 16, .seed = 1}, kept)
+          light(prepared, {.rays = 16, .seed = 1}, kept)
     {
     }
     /// In the atlas of another.
     Lit(Scene scene, const Lit& other, const StoredLinks* kept)
         : prepared(std::move(scene), [&](const Scene&, const RayScene&,
                                          const ProgressCallback&) { return other.prepared.atlas; }),
-          light(prepared.scene, prepared.atlas, prepared.lumels, {.rays = 16, .seed = 1}, kept)
+          light(prepared, {.rays = 16, .seed = 1}, kept)
     {
     }
     SolveScene prepared;

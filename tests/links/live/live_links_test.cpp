@@ -34,7 +34,7 @@ LiveLinksOptions options_for(const std::vector<std::string>& things)
     return {.rays = 16, .things = things};
 }
 
-LumelScene laid_out(const Scene& scene, const std::vector<std::string>& things)
+std::unique_ptr<SolveScene> laid_out(const Scene& scene, const std::vector<std::string>& things)
 {
     return lay_out(scene, {.size = kSide}, things);
 }
@@ -61,7 +61,7 @@ glm::mat4 motion(const glm::vec3& about, float angle, const glm::vec3& axis, con
 /// The scene that a live one has come to, prepared from nothing on the same lumels.
 LiveLinks anew(const LiveLinks& live, const LiveLinksOptions& options)
 {
-    return {{live.scene(), live.atlas(), live.lumels()}, options};
+    return {copy_of(live.solve_scene()), options};
 }
 
 TEST(LiveLinks, ClosedRoomGlowsByItsLampDimmed)

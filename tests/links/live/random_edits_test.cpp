@@ -66,8 +66,8 @@ public:
     }
 
     LiveLinks& live() { return live_; }
-    /// SolveScene from nothing on the same lumels.
-    LiveLinks anew() const { return {{live_.scene(), live_.atlas(), live_.lumels()}, options_}; }
+    /// Made from nothing on the same lumels.
+    LiveLinks anew() const { return {copy_of(live_.solve_scene()), options_}; }
     /// Paints and dims another as this one is now.
     void do_to(LiveLinks& fresh) const
     {
