@@ -51,7 +51,7 @@ TEST(Links, RefuseARoomThatAbsorbsNothing)
 /// Large enough for passes of several steps.
 TEST(Links, GoOnFromTheStateAfterAnyStepToTheSameLight)
 {
-    const Prepared world(support::scene_path("cornell-box"), {.size = 192});
+    const Prepared world(support::scene_path("cornell-box"), {.size = 160});
     const SolverOptions options = links(0.02);
     const support::Resident resident(world.scene, world.rays, world.lumels, options, &world.atlas);
     const HostScene host{world.scene, world.rays, world.atlas};
@@ -160,7 +160,7 @@ TEST_P(StatedByLinks, IsTheRealError)
     std::vector<glm::vec3> truth[2];
     for (std::uint32_t k = 0; k < 2; ++k)
         truth[k] = reference_irradiance(world.scene, world.rays, world.lumels,
-                                        {.samples_per_lumel = 1024, .seed = 101 + k});
+                                        {.samples_per_lumel = 256, .seed = 101 + k});
     double stated = 0.0, real = 0.0;
     constexpr std::uint32_t kSeeds = 4;
     for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
