@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kSamples = 512;         // of a lumel, in each half
+constexpr int kSamples = 256;         // of a lumel, in each half
 constexpr float kSamePlace = 1e-4f;   // [m]
 constexpr double kAllButSome = 0.99;  // of the lumels
 

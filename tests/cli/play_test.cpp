@@ -21,9 +21,9 @@ TEST(Play, WritesAPictureAndARowForEachFrame)
 {
     const Workplace place;
     for (const std::string redistribution : {"incremental", "cross"}) {
-        const Outcome outcome =
-            run_lumel(small_play(place.path(redistribution),
-                                 {"--frames", "3", "--redistribution", redistribution, "--json"}));
+        const Outcome outcome = run_lumel(
+            small_play(place.path(redistribution), {"--frames", "3", "--redistribution",
+                                                    redistribution, "--hemicube", "64", "--json"}));
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         const auto report = nlohmann::json::parse(outcome.out, nullptr, false);
         ASSERT_FALSE(report.is_discarded()) << outcome.out;

@@ -92,7 +92,7 @@ TEST(ViewSolve, SunAndSkyAreThoseOfNow)
                         "state lit.json\nsun 90,45\nsky 0.5\nwait\nstate links.json\n"
                         "solve stochastic\nstate shadow.json\nsun 270,45\nlamp sun 0.25\n"
                         "solve stochastic\nstate dimmed.json\n",
-                        {"--sun", "270,45", "--sky", "1000,1000,1000"});
+                        {"--sun", "270,45", "--sky", "1000,1000,1000"}, "48");
     const auto lux = [&](const std::string& name) {
         return played.state(name)["pixel"]["illuminance_lx"].get<double>();
     };
@@ -111,7 +111,8 @@ TEST(ViewSolve, WhatIsDeletedIsMissing)
     };
     const Played played(own_scene("cornell-box.gltf"),
                         "exposure 10\nwait\nsolve progressive\n" + at("there") + "delete\nwait\n" +
-                            at("links") + "solve progressive\n" + at("gone"));
+                            at("links") + "solve progressive\n" + at("gone"),
+                        {}, "32");
     EXPECT_EQ(played.state("there.json")["picked"]["name"], "short block");
     EXPECT_EQ(played.state("gone.json")["picked"]["name"], "back wall");
     // Its shadow is gone with it.
@@ -124,7 +125,8 @@ TEST(ViewSolve, GlossIsReadAgainForThePlacesOfNow)
     const Played played(own_scene("cornell-box.gltf"),
                         "exposure 10\nwait\npicture before.png\npick \"short block\"\n"
                         "move -0.2,0,0\nwait\npicture links.png\nsolve glossy --error 3\n"
-                        "picture solved.png\n");
+                        "picture solved.png\n",
+                        {}, "32");
     EXPECT_LT(difference(played.picture("solved.png"), played.picture("links.png")).mean, 3.0);
     EXPECT_GT(difference(played.picture("before.png"), played.picture("links.png")).mean, 6.0);
 }
@@ -170,7 +172,8 @@ TEST(ViewSolve, TheErrorIsWhatTheMethodStates)
     const Played played(own_scene("cornell-box.gltf"),
                         "wait\nmode error\nsolve progressive --error 1\nscale 0.1,10\n"
                         "pick 60,110\nstate one.json\npicture one.png\n"
-                        "solve stochastic --shots 16\nstate none.json\npicture none.png\n");
+                        "solve stochastic --shots 16\nstate none.json\npicture none.png\n",
+                        {}, "32");
     const Json one = played.state("one.json"), none = played.state("none.json");
     EXPECT_NEAR(one["error"]["mean_percent"].get<double>(),
                 one["solved"]["error_percent"].get<double>(), 1e-3);

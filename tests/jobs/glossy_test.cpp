@@ -24,7 +24,7 @@ struct GlossySolution {
 
 GlossySolution solve_room(const GlossyRoom& room, std::uint64_t shots)
 {
-    SolveScene furnace(support::scene_path("furnace-0.5"), AtlasOptions{.size = 64});
+    SolveScene furnace(support::scene_path("furnace-0.5"), AtlasOptions{.size = 40});
     for (Gloss& gloss : furnace.lumels.gloss)
         gloss = {glm::vec3(room.diffuse), glm::vec3(room.specular), room.shininess};
     const SolverOptions options{.method = GlossyOptions{}, .max_shots = shots, .target_error = 0.0};

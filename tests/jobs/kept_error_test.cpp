@@ -1,5 +1,7 @@
 // What light over kept links states of its error is the real one.
 
+#include <map>
+
 #include "../links/live/open_box.h"
 #include "links/live/link_relighter.h"
 #include "solved.h"
@@ -72,14 +74,30 @@ void expect_alike(const char* what, double stated, double real)
     EXPECT_LE(stated / real, 1.5) << what;
 }
 
+/// A scene in its atlas, and two independent halves of its reference.
+struct Traced {
+    explicit Traced(Scene (*scene)()) : world(scene(), AtlasOptions{.size = kSide})
+    {
+        for (std::uint32_t k = 0; k < 2; ++k)
+            truth[k] = reference_irradiance(world.scene, world.rays, world.lumels,
+                                            {.samples_per_lumel = 512, .seed = 101 + k});
+    }
+
+    SolveScene world;
+    Light truth[2];
+};
+
+/// Made once for each scene.
+const Traced& traced(Scene (*scene)())
+{
+    static std::map<Scene (*)(), Traced> made;
+    return made.try_emplace(scene, scene).first->second;
+}
+
 // Both figures, against the reference without its own noise.
 TEST_P(StatedOverKeptLinks, IsTheRealError)
 {
-    const SolveScene world(GetParam().scene(), AtlasOptions{.size = kSide});
-    Light truth[2];
-    for (std::uint32_t k = 0; k < 2; ++k)
-        truth[k] = reference_irradiance(world.scene, world.rays, world.lumels,
-                                        {.samples_per_lumel = 1024, .seed = 101 + k});
+    const auto& [world, truth] = traced(GetParam().scene);
     const std::vector<std::size_t> dark = dark_of(truth[0]);
     ASSERT_FALSE(dark.empty());
     double stated = 0.0, real = 0.0, dark_stated = 0.0, dark_real = 0.0;

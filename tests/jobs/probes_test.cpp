@@ -162,7 +162,7 @@ TEST(Probes, InARoomUnderSunAndSkyAreWhatPathsFind)
     set_sun(day, "265,35");
     const SolveScene world(
         read_scene(support::scene_path("two-rooms-window"), MaterialModel::diffuse, day),
-        AtlasOptions{.size = 256});
+        AtlasOptions{.size = 128});
     expect_probes_like_paths(world, 0.01,
                              {{2.0f, 1.3f, 1.5f}, {3.5f, 2.0f, 0.5f}, {3.0f, 1.2f, 3.6f}}, 256);
 }

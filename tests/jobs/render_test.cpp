@@ -25,6 +25,14 @@ RenderOptions small(std::uint64_t shots)
     return options;
 }
 
+/// Where the quality of the light does not matter.
+RenderOptions rough(std::uint64_t shots)
+{
+    RenderOptions options = small(shots);
+    options.bake.atlas.size = 48;
+    return options;
+}
+
 Scene glossy_scene(const std::string& name)
 {
     return read_gltf(support::scene_path(name), MaterialModel::glossy);
@@ -118,7 +126,7 @@ TEST(Picture, IsTheSameByShootersByRaysAndByBoth)
 /// Where no lamp is seen, no value is above 10 times the 99.9th percentile of what paths find.
 void expect_no_fireflies(const Scene& scene)
 {
-    RenderOptions options = small(2048);
+    RenderOptions options = rough(1024);
     const Image image = render(scene, options).image;
     options.paths = 256;
     const Image truth = render(scene, options).image;
@@ -164,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(Roughnesses, PictureOfRoughness, testing::Values(1.0f, 
 
 TEST(Picture, OfTheSameSeedHasTheSameBytes)
 {
-    const RenderOptions options = small(512);
+    const RenderOptions options = rough(256);
     EXPECT_EQ(picture("specular-objects", options).values,
               picture("specular-objects", options).values);
 }
@@ -231,7 +239,7 @@ TEST_P(PictureOfASheet, LitFromAboveIsDarkFromBelow)
         {.corner = {-0.5f, 2.0f, -0.5f}, .edge_u = x, .edge_v = z, .emission = glm::vec3(10.0f)});
     for (Material& material : scene.materials)
         material.metallic = 0.0f;
-    RenderOptions options = small(256);
+    RenderOptions options = rough(256);
     options.width = options.height = 16;
     options.shots = 0;
     scene.cameras = {parallel_camera({0.0f, 1.5f, 0.0f}, {0.0f, 1.0f, 0.0f}, -z)};
@@ -246,7 +254,7 @@ INSTANTIATE_TEST_SUITE_P(FrontUp, PictureOfASheet, testing::Bool());
 
 TEST(Picture, OfOnePixelIsTheMeanOfMany)
 {
-    RenderOptions options = small(2048);
+    RenderOptions options = rough(1024);
     options.width = options.height = 32;
     const glm::dvec4 many = mean(picture("glossy-floor", options));
     options.width = options.height = 1;
@@ -284,7 +292,7 @@ class PictureStoppedWhile : public testing::TestWithParam<const char*> {};
 
 TEST_P(PictureStoppedWhile, IsWholeAndSaysSo)
 {
-    RenderOptions options = small(512);
+    RenderOptions options = rough(256);
     options.shots = 256;
     if (GetParam() == std::string("path tracing"))
         options.paths = 64;
@@ -323,7 +331,7 @@ TEST(Picture, StoppedBeforeThereIsLightIsNone)
 
 TEST(Picture, OfFewerRaysThanAskedForIsAsBright)
 {
-    RenderOptions options = small(1024);
+    RenderOptions options = rough(512);
     options.shots = 0;
     const Image whole = picture("glossy-floor", options);
     const auto stop = [](const BakeProgress& progress) { return progress.stage != "lobe rays"; };

@@ -18,7 +18,7 @@ namespace lumel {
 namespace {
 
 constexpr int kSide = 64;  // of the atlas [texels]
-constexpr int kSmallSide = 32;
+constexpr int kSmallSide = 24;
 constexpr int kSmallHemicube = 64;
 
 Scene room_with_a_box()
@@ -194,7 +194,7 @@ TEST_P(LiveScenes, MovedThereAndBackIsAsBefore)
     LiveScene live(device, scene, options);
     live.settle();
     const auto first = live.irradiance();
-    for (int turn = 0; turn < 3; ++turn) {
+    for (int turn = 0; turn < 2; ++turn) {
         live.move(block, shifted(scene, 0.2f, 0.5f));
         live.settle();
         live.move(block, scene.instances[block].transform);

@@ -107,12 +107,12 @@ TEST(SkyLight, SealedBoxStaysExactlyDarkInside)
 {
     std::vector<support::Quad> quads;
     support::Quad look;
-    look.res_u = look.res_v = 24;
+    look.res_u = look.res_v = 16;
     for (const support::Quad& wall :
          support::box_walls({-0.7f, 0.0f, -0.6f}, {0.5f, 0.9f, 0.8f}, true, look))
         quads.push_back(wall);
-    const std::size_t inside = 6u * 24u * 24u;
-    quads.push_back(floor_of(2.0f, 40));
+    const std::size_t inside = 6u * 16u * 16u;
+    quads.push_back(floor_of(2.0f, 24));
     quads.back().corner.y = -0.1f;
     support::HandMade box = support::make_quads(quads);
     box.scene.sky = constant_sky(glm::vec3(1e4f));
@@ -385,7 +385,7 @@ TEST_P(ColouredLight, OfTheSunFallsThroughPanes)
     const auto& [panes, tint] = GetParam();
     const support::HandMade scene = floor_under(panes, PunctualLight::Kind::directional);
     const double open = 500.0;  // at 60°
-    expect_tint(mean_on_floor(scene, lit(scene, {.sun_directions = 128})), open, tint);
+    expect_tint(mean_on_floor(scene, lit(scene, {.sun_directions = 32})), open, tint);
     expect_tint(
         mean_on_floor(scene, reference_irradiance(scene.scene, RayScene(scene.scene), scene.lumels,
                                                   {.samples_per_lumel = 64, .max_bounces = 0})),
@@ -424,7 +424,7 @@ void throw_at(double fraction, const support::HandMade& made)
 
 TEST(DirectLight, MayBeEndedByAnException)
 {
-    support::HandMade scene = support::make_quads({floor_of(1.0f, 64)});
+    support::HandMade scene = support::make_quads({floor_of(1.0f, 24)});
     scene.scene.sky = constant_sky(glm::vec3(1.0f));
     throw_at(0.3, scene);  // of the sky and the lamps, in this order
     scene.scene.lights.push_back({.kind = PunctualLight::Kind::point, .radius = 0.1f});
