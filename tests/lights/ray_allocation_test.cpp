@@ -111,15 +111,38 @@ TEST(RayAllocation, GivesRaysByWeightAndAboutAsManyAsThereAre)
     EXPECT_LE(rays, kRays + std::uint32_t(shares.own.size()) + 1u);
 }
 
-TEST(RayAllocation, GivesEachOfFewSourcesItsOwnAndNoneToThoseThatDoNotCount)
+TEST(RayAllocation, GivesEachOfFewSourcesItsOwn)
 {
     const ManyLamps few(4);
-    EXPECT_EQ(allocate_rays(few.sources, glm::vec3(0.0f), kRays).own.size(), 6u);
-    const RayAllocation shares =
-        allocate_rays(few.sources, glm::vec3(0.0f), kRays, [](std::size_t s) { return s == 3; });
-    ASSERT_EQ(shares.own.size(), 1u);
-    EXPECT_EQ(shares.own[0].source, 3u);
+    const RayAllocation shares = allocate_rays(few.sources, glm::vec3(0.0f), kRays);
+    EXPECT_EQ(shares.own.size(), 6u);
     EXPECT_EQ(shares.rest_rays, 0u);
+}
+
+TEST(LightSelection, LeavesOutWhatItDoesNotName)
+{
+    const std::vector<support::Quad> plates = {
+        support::plate_above({0.0f, 0.0f}, {1.0f, 1.0f}, 1.0f, glm::vec3(1.0f)),
+        support::plate_above({2.0f, 0.0f}, {3.0f, 1.0f}, 1.0f, glm::vec3(1.0f))};
+    Scene scene = support::make_quads(plates).scene;
+    scene.lights = ManyLamps::lamps(1).lights;
+    const Surfaces surfaces(scene);
+    const auto parts = [&](const LightSelection& selection) {
+        const LightSources sources(scene, surfaces, 2.0f, selection);
+        std::vector<std::pair<LightSources::Part, std::uint32_t>> result;
+        for (std::size_t s = 0; s < sources.count(); ++s) {
+            const LightSources::SourceInfo origin = sources.origin(s);
+            const bool lamp = origin.part == LightSources::Part::light;
+            result.emplace_back(origin.part, lamp ? origin.index : origin.instance);
+        }
+        return result;
+    };
+    using Part = LightSources::Part;
+    EXPECT_EQ(parts({}).size(), 5u);
+    EXPECT_EQ(parts(kLampsAlone),
+              (decltype(parts({})){{Part::light, 0}, {Part::light, 1}, {Part::light, 2}}));
+    EXPECT_EQ(parts({.lamps = false, .instances = {1}}),
+              (decltype(parts({})){{Part::material, 1}}));
 }
 
 }  // namespace

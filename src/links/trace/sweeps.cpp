@@ -15,6 +15,8 @@ namespace {
 
 /// Cells per side of the scene's bounds, for the groups.
 constexpr int kGroupCells = 4;
+/// Sweeps before changes shrink by a factor of their own.
+constexpr int kFirstSweeps = 2;
 /// Sweeps before groups are made.
 constexpr int kPlainSweeps = 10;
 /// Convergence threshold: RMS residual relative to each sub-lumel's own light. Sub-lumels darker
@@ -271,7 +273,7 @@ void LinkSolver::solve(const LinkSet& gathered, std::vector<glm::vec3>& received
         sent[p] = glm::vec4(lumels_.lumels[parts_.lumel(p)].albedo * received[p], 0.0f);
     std::optional<Groups> groups;
     std::vector<Change> changes(blocks);
-    double before = 0.0, floor = 0.0;
+    double before = 0.0, floor = kDarkestCounted * mean_of(sent);
     for (int sweep = 1; sweep <= kSweepLimit; ++sweep) {
         parallel_for(blocks, kBlocksPerTask, [&](std::size_t first, std::size_t last) {
             for (std::size_t b = first; b < last; ++b)
@@ -283,13 +285,14 @@ void LinkSolver::solve(const LinkSet& gathered, std::vector<glm::vec3>& received
             all.count += change.count;
         }
         const double size = all.count > 0 ? std::sqrt(all.squares / double(all.count)) : 0.0;
-        // Changes that shrink by a factor q leave q / (1 - q) of the last as residual.
+        // Changes that shrink by a factor q leave q / (1 - q) of the last as residual. The first
+        // is another matter: all light in a first round, the noise of new rays in later ones.
         const double factor = std::min(before > 0.0 ? size / before : kSlowestSweep, kSlowestSweep);
         const double to_come =
             groups ? size + groups->correct(sent, next) : size * factor / (1.0 - factor);
         sent.swap(next);
         before = size;
-        if (size == 0.0 || (sweep > 1 && to_come < kStill))
+        if (size == 0.0 || (sweep > kFirstSweeps && to_come < kStill))
             return;
         if (sweep == 1)
             floor = kDarkestCounted * mean_of(sent);

@@ -1,0 +1,133 @@
+// Bounces solved over links, against the equation that they solve.
+
+#include <cmath>
+
+#include <glm/gtc/packing.hpp>
+#include <gtest/gtest.h>
+
+#include "../../support/source_folder.h"
+#include "atlas/cells/order.h"
+#include "links/trace/sweeps.h"
+#include "rays/cast/ray_caster.h"
+
+namespace lumel {
+namespace {
+
+using Light = std::vector<glm::dvec3>;
+
+/// A furnished room, in which sub-lumels of few rays are lit by some rounds alone.
+struct TracedRoom {
+    TracedRoom()
+        : scene(support::source_path("scenes/room.gltf"), {.size = 128}),
+          work(scene, {cast_on_host(scene.rays)}, SampleRule::area, order_in_space),
+          parts(work.world, work.cells, scene.rays, scene.lumels, kPartStream),
+          direct(work, kDirectStream),
+          tracer(work, parts, direct, 1),
+          solver(scene.lumels, work.world, parts, work.order),
+          links(parts.count())
+    {
+        while (direct.step()) {
+        }
+    }
+
+    /// Adds a round of links with other random numbers, then finds all bounces.
+    void add_round(std::uint16_t rays)
+    {
+        links.rounds.emplace_back(tracer.blocks());
+        const std::vector<std::uint16_t> each(work.order.size(), rays);
+        tracer.trace(0, tracer.blocks(),
+                     {each, kLinkStream + std::uint32_t(links.rounds.size()), nullptr}, links);
+        solver.solve(links, received);
+    }
+
+    SolveScene scene;
+    LinkWork work;
+    SubLumels parts;
+    DirectEstimator direct;
+    LinkTracer tracer;
+    LinkSolver solver;
+    LinkSet links;
+    std::vector<glm::vec3> received;  ///< [P] [lx]
+};
+
+/// C + K ρ X of each sub-lumel: the mean over its rays of what they meet. One without rays has the
+/// mean of its lumel.
+Light swept(const TracedRoom& room, const Light& light)
+{
+    const auto sent = [&](std::uint32_t part) {
+        const std::size_t lumel = room.parts.lumel(part);
+        return glm::dvec3(room.work.lumels()[lumel].albedo) * light[part];
+    };
+    Light sum(light.size());
+    for (std::size_t p = 0; p < sum.size(); ++p)
+        sum[p] = glm::dvec3(room.links.reflected[p]) + glm::dvec3(room.links.sky[p]);
+    for (const std::vector<LinkBlock>& round : room.links.rounds) {
+        std::size_t place = 0;
+        for (const LinkBlock& block : round)
+            for (std::size_t row = 0; row + 1 < block.first.size();) {
+                const std::uint32_t lumel = room.work.order[place++];
+                for (std::uint32_t p = room.parts.first(lumel); p < room.parts.end(lumel);
+                     ++p, ++row) {
+                    for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
+                        sum[p] += sent(block.target[k]);
+                    for (std::uint32_t k = block.first_weak[row]; k < block.first_weak[row + 1];
+                         ++k)
+                        sum[p] += sent(block.weak[k].part) *
+                                  glm::dvec3(glm::unpackF3x9_E1x5(block.weak[k].weight));
+                }
+            }
+    }
+    const std::vector<std::uint32_t>& rays = room.links.rays;
+    for (std::size_t i = 0; i < room.work.lumels().size(); ++i) {
+        glm::dvec3 of_lumel(0.0);
+        double all = 0.0;
+        for (std::uint32_t p = room.parts.first(i); p < room.parts.end(i); ++p) {
+            of_lumel += sum[p];
+            all += double(rays[p]);
+        }
+        for (std::uint32_t p = room.parts.first(i); p < room.parts.end(i); ++p)
+            if (rays[p] > 0)
+                sum[p] /= double(rays[p]);
+            else
+                sum[p] = all > 0.0 ? of_lumel / all : glm::dvec3(0.0);
+    }
+    return sum;
+}
+
+/// Deviation of the light from the limit of the sweeps [RMS], each sub-lumel's in terms of its own
+/// light; those darker than a ten-thousandth of the mean count as that bright.
+double distance_from_limit(const TracedRoom& room)
+{
+    constexpr int kSweeps = 200;  // albedo 0.8 to its 200th power is 4e-20
+    constexpr double kDarkest = 1e-4;
+    const auto sum_of = [](const glm::dvec3& light) { return light.r + light.g + light.b; };
+    Light limit(room.received.begin(), room.received.end());
+    for (int sweep = 0; sweep < kSweeps; ++sweep)
+        limit = swept(room, limit);
+    double mean = 0.0, squares = 0.0;
+    for (const glm::dvec3& light : limit)
+        mean += sum_of(light) / double(limit.size());
+    EXPECT_GT(mean, 0.0);
+    std::size_t count = 0;
+    for (std::size_t p = 0; p < limit.size(); ++p)
+        if (room.links.rays[p] > 0 && sum_of(limit[p]) > 0.0) {
+            squares += std::pow(sum_of(glm::dvec3(room.received[p]) - limit[p]) /
+                                    (sum_of(limit[p]) + kDarkest * mean),
+                                2.0);
+            ++count;
+        }
+    return std::sqrt(squares / double(count));
+}
+
+TEST(LinkSolver, SolvesLaterRoundsAsWellAsTheFirst)
+{
+    constexpr double kSolved = 5e-3;  // a first round ends here, at an estimated 1e-3
+    TracedRoom room;
+    for (const int rays : {8, 8, 16, 32}) {
+        room.add_round(std::uint16_t(rays));
+        EXPECT_LE(distance_from_limit(room), kSolved) << "round " << room.links.rounds.size();
+    }
+}
+
+}  // namespace
+}  // namespace lumel
