@@ -29,8 +29,7 @@ struct SolveScene {
     using Bury = std::function<std::vector<float>(const Scene&, const RayScene&, Lumels&)>;
     SolveScene(Scene scene, const LayOut& lay_out, const Bury& bury = {},
                const ProgressCallback& progress = {});
-    /// Uses an atlas and lumels that were made of the scene, in which instances `movers` may move:
-    /// `rays` leaves them out.
+    /// Uses an atlas and lumels of the scene. movers: instances that may move; `rays` omits them.
     SolveScene(Scene scene, Atlas atlas, Lumels lumels, std::vector<std::uint32_t> movers = {});
     /// Reads the scene first.
     SolveScene(const std::string& scene_path, const AtlasOptions& options);
@@ -49,12 +48,12 @@ struct SolveScene {
     std::vector<float> open;  ///< [N] share of each lumel's area that is not buried
 };
 
-/// Builds the atlas and lumels of a scene in which instances `movers` may move: what stays buries
-/// the lumels that stay. Throws Error.
+/// Builds the atlas and lumels of a scene in which instances `movers` may move. Static geometry
+/// buries static lumels. Throws Error.
 std::unique_ptr<SolveScene> lay_out_movers(Scene scene, const AtlasOptions& options,
                                            const std::vector<std::uint32_t>& movers);
 
-/// The same again, on its own.
+/// A separate copy, with rays of its own.
 std::unique_ptr<SolveScene> copy_of(const SolveScene& scene);
 
 }  // namespace lumel

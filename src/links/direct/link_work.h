@@ -1,5 +1,5 @@
 #pragma once
-// What the stages of the link engine share, and none of them changes.
+// Constant inputs of all stages of the link engine.
 
 #include <memory>
 #include <vector>
@@ -15,15 +15,15 @@ namespace lumel {
 
 /// Must not move.
 struct LinkWork {
-    /// Who casts rays over the scene's geometry.
+    /// Ray tracing of the scene's geometry.
     struct Casters {
         std::unique_ptr<RayCaster> rays;
         std::unique_ptr<BundleCaster> bundles = nullptr;  ///< of shared directions; null: `rays`
     };
-    /// Lumels [N] in the order in which they trace rays.
+    /// Returns the lumels [N] in the order in which they trace rays.
     using Order = std::vector<std::uint32_t> (*)(const WorldLumels& world);
 
-    /// The scene must outlive this, unmoved.
+    /// The scene must outlive this, unmoved. lights: that count as sources.
     LinkWork(const SolveScene& of, Casters by, SampleRule rule, Order order_of,
              const LightSelection& lights = {})
         : scene(of),

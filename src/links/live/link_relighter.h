@@ -55,7 +55,7 @@ private:
     const SolveScene& scene_;
     const KeptLightOptions options_;
     DynamicRayScene rays_;
-    std::optional<Surfaces> surfaces_;  ///< with the emission of now
+    std::optional<Surfaces> surfaces_;  ///< with the current emission
     WorldLumels world_;
     RayOrigins starts_;
     std::optional<LightSources> sources_;

@@ -15,7 +15,7 @@ namespace {
 
 /// Cells per side of the scene's bounds, for the groups.
 constexpr int kGroupCells = 4;
-/// Sweeps before changes shrink by a factor of their own.
+/// Sweeps before the factor between changes is used.
 constexpr int kFirstSweeps = 2;
 /// Sweeps before groups are made.
 constexpr int kPlainSweeps = 10;
@@ -286,7 +286,7 @@ void LinkSolver::solve(const LinkSet& gathered, std::vector<glm::vec3>& received
         }
         const double size = all.count > 0 ? std::sqrt(all.squares / double(all.count)) : 0.0;
         // Changes that shrink by a factor q leave q / (1 - q) of the last as residual. The first
-        // is another matter: all light in a first round, the noise of new rays in later ones.
+        // change does not: it is all light in the first round, and noise of new rays in later ones.
         const double factor = std::min(before > 0.0 ? size / before : kSlowestSweep, kSlowestSweep);
         const double to_come =
             groups ? size + groups->correct(sent, next) : size * factor / (1.0 - factor);
