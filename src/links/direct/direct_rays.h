@@ -14,8 +14,7 @@ namespace lumel {
 class DirectRays {
 public:
     /// The scene must outlive this. known: [N] [lx] irradiance that is added to the light when the
-    /// error is made relative, or empty. instances: whose emission
-    /// counts; empty: all.
+    /// error is made relative, or empty. instances: emissive ones that count; empty: all.
     DirectRays(const SolveScene& scene, std::uint32_t seed, double target_error,
                std::span<const glm::vec3> known = {},
                const std::vector<std::uint32_t>& instances = {});

@@ -25,7 +25,6 @@
 #include "base/core/parallel.h"
 #include "lights/source_choice.h"
 #include "methods/glossy/phong.h"
-#include "rays/paths/directions.h"
 
 namespace lumel {
 namespace {

@@ -128,7 +128,6 @@ private:
     const DirectionalFit& fit_;
     std::uint32_t seed_;
     bool has_sky_;
-    std::vector<char> counts_;  ///< [sources] 1: not a surface
 };
 
 }  // namespace

@@ -20,7 +20,6 @@
 #include "base/core/pi.h"
 #include "lights/source_choice.h"
 #include "methods/glossy/phong.h"
-#include "rays/paths/directions.h"
 #include "rays/paths/samples.h"
 
 namespace lumel {
