@@ -32,9 +32,11 @@ FinalGather::FinalGather(const DirectRays& direct, std::vector<glm::vec3> receiv
       sent_(std::move(received)),
       parts_(direct.work().world, direct.work().cells, direct.work().scene.rays,
              direct.work().scene.lumels, PathSamples::hash(seed, kPartStream)),
-      tracer_(direct.work(), parts_, direct.finder(), seed),
+      numbers_(direct.work().scene.scene.instances.size(), parts_.count()),
+      tracer_(direct.work(), parts_, numbers_, direct.finder(), seed),
+      reflected_(direct.work(), parts_, numbers_, direct.finder()),
       rounds_((rays + kGatherRays - 1) / kGatherRays),
-      gathered_(parts_.count()),
+      links_(parts_.count()),
       sum_(sent_.size(), glm::vec3(0.0f)),
       rays_(sent_.size(), 0)
 {
@@ -45,12 +47,12 @@ FinalGather::FinalGather(const DirectRays& direct, std::vector<glm::vec3> receiv
 void FinalGather::step()
 {
     if (block_ == 0) {
-        gathered_ = LinkSet(parts_.count());
-        gathered_.rounds.emplace_back(tracer_.blocks());
+        links_ = LinkTable(parts_.count());
+        links_.rounds.emplace_back(tracer_.blocks());
     }
     const std::size_t last = std::min(block_ + kBlocksPerGather, tracer_.blocks());
     const std::vector<std::uint16_t> rays(sent_.size(), kGatherRays);
-    tracer_.trace(block_, last, {rays, kLinkStream + round_, nullptr}, gathered_);
+    tracer_.trace(block_, last, {rays, kLinkStream + round_, nullptr}, links_);
     take(last);
     block_ = last;
     if (block_ == tracer_.blocks()) {
@@ -63,23 +65,34 @@ void FinalGather::step()
 void FinalGather::take(std::size_t last)
 {
     for (std::size_t b = block_; b < last; ++b) {
-        LinkBlock& block = gathered_.rounds.back()[b];
+        LinkBlock& block = links_.rounds.back()[b];
+        LinkRows rows(block);
         const std::size_t end = std::min((b + 1) * kLinkBlock, sent_.size());
-        std::size_t row = 0;
         for (std::size_t n = b * kLinkBlock; n < end; ++n) {
             const std::uint32_t i = direct_.work().order[n];
-            for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p, ++row) {
-                rays_[i] += gathered_.rays[p];
-                sum_[i] += gathered_.reflected[p];
-                for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
-                    sum_[i] += sent_[parts_.lumel(block.target[k])];
-                for (std::uint32_t k = block.first_weak[row]; k < block.first_weak[row + 1]; ++k)
-                    sum_[i] += sent_[parts_.lumel(block.weak[k].part)] *
-                               glm::unpackF3x9_E1x5(block.weak[k].weight);
-            }
+            take(rows.next(parts_.is_cut(i)), i);
         }
         block = {};
     }
+}
+
+/// Adds the rays of lumel i, without the sky.
+void FinalGather::take(const LinkRow& row, std::size_t i)
+{
+    const auto add = [&](LinkEnd end, const glm::vec3& weight, const glm::vec3& light) {
+        if (numbers_.is_lost(end.number()))
+            return;
+        ++rays_[i];
+        sum_[i] += light;
+        if (numbers_.is_part(end.number()))
+            sum_[i] += weight * sent_[parts_.lumel(numbers_.part(end.number()))];
+    };
+    for (const LinkEnd end : row.ends)
+        if (end.number() != LinkNumbers::kNear)
+            add(end, glm::vec3(1.0f), reflected_.at(end));
+    for (const NearLink& near : row.near)
+        add(near.end, glm::unpackF3x9_E1x5(near.weight),
+            near.distance == NearLink::kNoHit ? glm::vec3(0.0f) : near.light);
 }
 
 std::vector<glm::vec3> FinalGather::irradiance() const

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "links/direct/direct_rays.h"
+#include "links/trace/source_term.h"
 #include "links/trace/tracer.h"
 
 namespace lumel {
@@ -25,14 +26,17 @@ public:
 
 private:
     void take(std::size_t last);
+    void take(const LinkRow& row, std::size_t lumel);
 
     const DirectRays& direct_;
     std::vector<glm::vec3> sent_;  ///< [N] [lm/m²] reflected coarse light
     SubLumels parts_;
+    LinkNumbers numbers_;
     LinkTracer tracer_;
+    ReflectedLight reflected_;
     std::uint32_t round_ = 0, rounds_;
     std::size_t block_ = 0;
-    LinkSet gathered_;            ///< current round
+    LinkTable links_;             ///< current round
     std::vector<glm::vec3> sum_;  ///< [N] over all rays
     std::vector<std::uint32_t> rays_;
 };

@@ -1,6 +1,6 @@
 // Radiosity over links. The irradiance of a lumel is direct light D, from shadow rays to light
 // sources, plus light along cosine-distributed rays. Each of these is traced once. The sub-lumel
-// that it hits is stored, a link of four bytes, and
+// and the cell that it hits are stored, a link of four bytes, and
 //
 // is solved over the links, sweep by sweep, for all bounces at once (links/trace/sweeps.cpp). The
 // cost grows linearly with the number of lumels.
@@ -42,8 +42,8 @@ constexpr std::uint32_t kMaxLinks = 4096;
 /// Rays per lumel in all solutions for an estimated error of 5 %: 24 in Cornell's box, 34 in
 /// Sponza, 74 in the town of scenes/town.py.
 constexpr double kLikelyRays = 64.0;
-/// [bytes] of a link, and of a sub-lumel per round and solution: start of its links.
-constexpr double kLinkBytes = sizeof(std::uint32_t), kPartBytes = 2 * sizeof(std::uint32_t);
+/// [bytes] of a link, and of a lumel per round and solution: number of its links.
+constexpr double kLinkBytes = sizeof(LinkEnd), kRowBytes = sizeof(std::uint16_t);
 /// Fraction of lumels with direct light per cell: maximum seen.
 constexpr double kVarying = 0.1;
 /// Fraction of rays allocated uniformly.
@@ -139,7 +139,7 @@ LinkRadiosity::~LinkRadiosity() = default;
 
 std::uint64_t LinkRadiosity::first_bytes(std::size_t lumels)
 {
-    return std::uint64_t(kSolutions * double(lumels) * (kFirstRays * kLinkBytes + kPartBytes));
+    return std::uint64_t(kSolutions * double(lumels) * (kFirstRays * kLinkBytes + kRowBytes));
 }
 
 std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shots)
@@ -149,13 +149,12 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
     double rounds = 1.0;
     for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinMore)
         ++rounds;
-    return std::uint64_t(double(lumels) * (rays * kLinkBytes + rounds * kSolutions * kPartBytes));
+    return std::uint64_t(double(lumels) * (rays * kLinkBytes + rounds * kSolutions * kRowBytes));
 }
 
 std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels)
 {
-    constexpr std::size_t kOfGathered =
-        2 * sizeof(glm::vec3) + sizeof(std::uint32_t) + sizeof(float);
+    constexpr std::size_t kOfGathered = 2 * sizeof(glm::vec3) + sizeof(std::uint32_t);
     constexpr std::size_t kOfMean = sizeof(glm::vec3) + 2 * sizeof(float);
     constexpr std::size_t kOfOrder = sizeof(std::uint32_t), kOfGroups = sizeof(std::uint32_t);
     const std::size_t of_parts = kSolutions * (kOfGathered + sizeof(glm::vec3)) + kOfGroups;
@@ -219,7 +218,7 @@ void LinkRadiosity::state(Archive& archive)
     archive(*direct_, round_, mean_rays_, rays_, traced_, mean_.light, mean_.noise, mean_.wrong,
             mean_light_, all_, dark_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
-        archive(*gathered_[k], received_[k]);
+        archive(*links_[k], received_[k]);
 }
 
 void LinkRadiosity::write_state(StateWriter& writer)
@@ -251,7 +250,8 @@ void LinkRadiosity::check_sizes() const
                 is(mean_.noise.size(), lumels) && is(mean_.wrong.size(), lumels) &&
                 traced_ <= tracer_->blocks();
     for (std::size_t k = 0; k < kSolutions; ++k)
-        fits = fits && gathered_[k]->rays.size() == parts && is(received_[k].size(), parts);
+        fits = fits && links_[k]->fits(work_.order, *parts_, *numbers_) &&
+               is(received_[k].size(), parts);
     if (!fits)
         throw Error(ErrorKind::input, "checkpoint",
                     "is of another version of Lumel; bake without --resume");
@@ -272,10 +272,11 @@ void LinkRadiosity::cut()
     parts_.emplace(work_.world, work_.cells, work_.scene.rays, work_.scene.lumels,
                    PathSamples::hash(options_.seed, kPartStream));
     direct_.emplace(work_, PathSamples::hash(options_.seed, kDirectStream));
-    tracer_.emplace(work_, *parts_, *direct_, options_.seed);
-    solver_.emplace(work_.scene.lumels, work_.world, *parts_, work_.order);
-    for (std::optional<LinkSet>& gathered : gathered_)
-        gathered.emplace(parts_->count());
+    numbers_.emplace(work_.scene.scene.instances.size(), parts_->count());
+    tracer_.emplace(work_, *parts_, *numbers_, *direct_, options_.seed);
+    solver_.emplace(work_, *parts_, *numbers_);
+    for (std::optional<LinkTable>& links : links_)
+        links.emplace(parts_->count());
 }
 
 /// Traces a step of the round's rays.
@@ -294,7 +295,7 @@ void LinkRadiosity::trace()
             shared.emplace(
                 side, mean_rays_,
                 PathSamples::hash(PathSamples::hash(options_.seed, kSharedStream), stream));
-        tracer_->trace(traced_, last, {rays_, stream, shared ? &*shared : nullptr}, *gathered_[k]);
+        tracer_->trace(traced_, last, {rays_, stream, shared ? &*shared : nullptr}, *links_[k]);
     }
     traced_ = last;
 }
@@ -315,8 +316,8 @@ void LinkRadiosity::begin_round()
     share_out_rays();
     traced_ = 0;
     stage_ = Stage::links;
-    for (std::optional<LinkSet>& gathered : gathered_)
-        gathered->rounds.emplace_back(tracer_->blocks());
+    for (std::optional<LinkTable>& links : links_)
+        links->rounds.emplace_back(tracer_->blocks());
 }
 
 /// Further rays per lumel and solution for the target error.
@@ -343,12 +344,12 @@ double LinkRadiosity::rays_that_fit() const
     if (most_bytes_ == 0)
         return kMaxLinks;
     double taken = 0.0;
-    for (const std::optional<LinkSet>& gathered : gathered_)
-        taken += double(gathered->bytes());
+    for (const std::optional<LinkTable>& links : links_)
+        taken += double(links->bytes());
     const double of_ray =
         state_.shots > 0 ? taken / double(state_.shots) : double(work_.order.size()) * kLinkBytes;
-    const double starts = kSolutions * double(parts_->count()) * kPartBytes;
-    return std::max(double(most_bytes_) - taken - starts, 0.0) / (kSolutions * of_ray);
+    const double rows = kSolutions * double(work_.order.size()) * kRowBytes;
+    return std::max(double(most_bytes_) - taken - rows, 0.0) / (kSolutions * of_ray);
 }
 
 /// [N] Weight of each lumel's squared error. With a target for dark lumels 1 / irradiance, halfway
@@ -391,12 +392,20 @@ void LinkRadiosity::share_out_rays()
     }
 }
 
-void LinkRadiosity::end_round()
+/// Solves for all bounces over the links of each solution.
+void LinkRadiosity::solve()
 {
+    const ReflectedLight reflected(work_, *parts_, *numbers_, *direct_);
     for (std::size_t k = 0; k < kSolutions; ++k) {
-        solver_->solve(*gathered_[k], received_[k]);
+        sources_[k] = find_source_term(work_, *parts_, *numbers_, reflected, *links_[k]);
+        solver_->solve(*links_[k], sources_[k], received_[k]);
         balance(k);
     }
+}
+
+void LinkRadiosity::end_round()
+{
+    solve();
     state_.shots += std::uint64_t(std::llround(double(kSolutions) * mean_rays_));
     ++round_;
     combine();
@@ -408,7 +417,7 @@ void LinkRadiosity::end_round()
 /// known: it equals the direct light, Σ A (1 - ρ) (D + X) = Σ A D.
 void LinkRadiosity::balance(std::size_t k)
 {
-    if (!gathered_[k]->is_closed())
+    if (!sources_[k].is_closed)
         return;
     glm::dvec3 absorbed(0.0), reflected(0.0);
     double area = 0.0, albedo = 0.0;
@@ -491,8 +500,8 @@ glm::vec3 LinkRadiosity::brought(std::size_t i, std::size_t k) const
     glm::vec3 sky(0.0f);
     std::uint32_t rays = 0;
     for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
-        rays += gathered_[k]->rays[p];
-        sky += gathered_[k]->sky[p];
+        rays += sources_[k].rays[p];
+        sky += links_[k]->sky[p];
     }
     if (rays > 0)
         sky /= float(rays);
@@ -513,21 +522,10 @@ glm::vec3 LinkRadiosity::indirect(std::size_t i, std::size_t k) const
     glm::vec3 sum(0.0f);
     std::uint32_t rays = 0;
     for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
-        rays += gathered_[k]->rays[p];
-        sum += float(gathered_[k]->rays[p]) * received_[k][p];
+        rays += sources_[k].rays[p];
+        sum += float(sources_[k].rays[p]) * received_[k][p];
     }
     return rays > 0 ? sum / float(rays) : glm::vec3(0.0f);
-}
-
-/// [N] Distance to the nearest ray hit of each lumel [m].
-std::vector<float> LinkRadiosity::nearest() const
-{
-    std::vector<float> nearest(work_.lumels().size(), std::numeric_limits<float>::max());
-    for (std::size_t i = 0; i < nearest.size(); ++i)
-        for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
-            for (const std::optional<LinkSet>& gathered : gathered_)
-                nearest[i] = std::min(nearest[i], gathered->nearest[p]);
-    return nearest;
 }
 
 /// Averages the solutions.
@@ -539,7 +537,9 @@ void LinkRadiosity::combine()
         for (std::size_t i = 0; i < found[k].size(); ++i)
             found[k][i] = brought(i, k);
     }
-    const std::vector<float> near = nearest();
+    std::vector<float> near(work_.lumels().size(), NearLink::kNoHit);
+    for (const std::optional<LinkTable>& links : links_)
+        lower_to_hits(work_, *parts_, *numbers_, *links, near);
     std::optional<ChartFilter> filter;
     if (options_.filter)
         filter.emplace(work_, *parts_, near);

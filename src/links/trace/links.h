@@ -77,6 +77,7 @@ private:
     void trace();
     void begin_round();
     void share_out_rays();
+    void solve();
     void end_round();
     void balance(std::size_t solution);
     void go_on();
@@ -90,7 +91,6 @@ private:
     glm::vec3 indirect(std::size_t lumel, std::size_t solution) const;
     glm::vec3 brought(std::size_t lumel, std::size_t solution) const;
     glm::vec3 arrived(std::size_t lumel) const;
-    std::vector<float> nearest() const;
     void combine();
     void estimate();
 
@@ -101,11 +101,13 @@ private:
     const Parts parts_wanted_;
     LinkWork work_;
     std::optional<SubLumels> parts_;
+    std::optional<LinkNumbers> numbers_;
     std::optional<DirectEstimator> direct_;
     std::optional<LinkTracer> tracer_;
     std::optional<LinkSolver> solver_;
     // Solutions share no random numbers except those of direct light.
-    std::array<std::optional<LinkSet>, kSolutions> gathered_;
+    std::array<std::optional<LinkTable>, kSolutions> links_;
+    std::array<SourceTerm, kSolutions> sources_;               ///< of the last sweeps
     std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] without direct light
     Mean mean_;                                                ///< their mean
     Stage stage_ = Stage::begin;

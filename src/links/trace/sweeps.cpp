@@ -1,6 +1,7 @@
 #include "links/trace/sweeps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -35,12 +36,30 @@ constexpr double kSlowestSweep = 1.0 - 1e-6;
 constexpr double kSingular = 1e-7;
 
 /// Mean over sub-lumels, summed over channels.
-double mean_of(const std::vector<glm::vec4>& sent)
+double mean_of(const std::vector<glm::vec4>& sent, std::size_t parts)
 {
     double sum = 0.0;
     for (const glm::vec4& light : sent)
         sum += double(light.x + light.y + light.z);
-    return sum / double(std::max<std::size_t>(sent.size(), 1));
+    return sum / double(std::max<std::size_t>(parts, 1));
+}
+
+/// Adds what the rays of a row bring to the sub-lumels of lumel i.
+void add_row(const LinkRow& row, const SubLumels& parts, std::size_t i,
+             const std::vector<glm::vec4>& sent, std::array<glm::vec4, kMaxParts>& sums)
+{
+    if (row.from) {
+        for (std::size_t k = 0; k < row.ends.size(); ++k)
+            sums[row.leaves(parts, i, k)] += sent[row.ends[k].number()];
+    } else {
+        glm::vec4 sum = sums[0];
+        for (const LinkEnd end : row.ends)
+            sum += sent[end.number()];
+        sums[0] = sum;
+    }
+    for (const NearLink& near : row.near)
+        sums[row.leaves(parts, i, near.slot - row.first_slot)] +=
+            sent[near.end.number()] * glm::vec4(glm::unpackF3x9_E1x5(near.weight), 0.0f);
 }
 
 }  // namespace
@@ -51,7 +70,7 @@ double mean_of(const std::vector<glm::vec4>& sent)
 /// sub-lumels send, so that none is added to dark cavities, which would lose it slowly.
 class LinkSolver::Groups {
 public:
-    Groups(const LinkSolver& solver, const LinkSet& gathered)
+    Groups(const LinkSolver& solver, const System& system)
         : solver_(solver),
           size_(solver.group_count_)
     {
@@ -60,7 +79,7 @@ public:
             inverse_[c].assign(cells, 0.0);
         area_.assign(size_, 0.0);
         for_each_part([&](std::uint32_t p, double area) { area_[solver.group_[p]] += area; });
-        count_links(gathered);
+        count_links(system);
         for (int c = 0; c < 3; ++c)
             invert(inverse_[c]);
     }
@@ -71,8 +90,9 @@ public:
     {
         std::vector<glm::dvec3> change(size_, glm::dvec3(0.0)), mean = change, factor = change;
         for_each_part([&](std::uint32_t p, double area) {
-            change[solver_.group_[p]] += area * glm::dvec3(now[p] - before[p]);
-            mean[solver_.group_[p]] += area * glm::dvec3(now[p]);
+            const std::uint32_t n = solver_.numbers_.of_part(p);
+            change[solver_.group_[p]] += area * glm::dvec3(now[n] - before[n]);
+            mean[solver_.group_[p]] += area * glm::dvec3(now[n]);
         });
         for (std::uint32_t g = 0; g < size_; ++g) {
             change[g] /= std::max(area_[g], kMinArea);
@@ -88,8 +108,9 @@ public:
                                                              1.0 / kMaxFactor, kMaxFactor)
                                                 : 1.0;
             }
-        for_each_part(
-            [&](std::uint32_t p, double) { now[p] *= glm::vec4(factor[solver_.group_[p]], 0.0); });
+        for_each_part([&](std::uint32_t p, double) {
+            now[solver_.numbers_.of_part(p)] *= glm::vec4(factor[solver_.group_[p]], 0.0);
+        });
         double squares = 0.0, sent = 0.0;
         for (std::uint32_t g = 0; g < size_; ++g)
             for (int c = 0; c < 3; ++c) {
@@ -104,7 +125,7 @@ private:
     template <class Visit>
     void for_each_part(const Visit& visit) const
     {
-        const std::vector<Lumel>& lumels = solver_.lumels_.lumels;
+        const std::vector<Lumel>& lumels = solver_.work_.lumels();
         for (std::uint32_t i = 0; i < lumels.size(); ++i) {
             const std::uint32_t first = solver_.parts_.first(i), end = solver_.parts_.end(i);
             for (std::uint32_t p = first; p < end; ++p)
@@ -113,43 +134,41 @@ private:
     }
 
     /// 1 - K.
-    void count_links(const LinkSet& gathered)
+    void count_links(const System& system)
     {
-        const std::vector<Lumel>& lumels = solver_.lumels_.lumels;
-        for (const std::vector<LinkBlock>& blocks : gathered.rounds)
+        const std::vector<std::uint32_t>& order = solver_.work_.order;
+        for (const std::vector<LinkBlock>& blocks : system.links.rounds)
             for (std::size_t b = 0; b < blocks.size(); ++b) {
-                std::size_t row = 0;
-                const std::size_t end = std::min((b + 1) * kLinkBlock, solver_.order_.size());
-                for (std::size_t o = b * kLinkBlock; o < end; ++o) {
-                    const std::uint32_t i = solver_.order_[o];
-                    const std::uint32_t first = solver_.parts_.first(i),
-                                        last = solver_.parts_.end(i);
-                    for (std::uint32_t p = first; p < last; ++p, ++row) {
-                        if (gathered.rays[p] == 0)
-                            continue;
-                        const std::uint32_t a = solver_.group_[p];
-                        const double share = double(lumels[i].area) / double(last - first) /
-                                             std::max(area_[a], kMinArea) /
-                                             double(gathered.rays[p]);
-                        const LinkBlock& block = blocks[b];
-                        const auto add = [&](std::uint32_t target, const glm::vec3& weight) {
-                            const std::size_t cell =
-                                std::size_t(a) * size_ + solver_.group_[target];
-                            for (int c = 0; c < 3; ++c)
-                                inverse_[c][cell] -=
-                                    share * double(lumels[i].albedo[c] * weight[c]);
-                        };
-                        for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
-                            add(block.target[k], glm::vec3(1.0f));
-                        for (std::uint32_t k = block.first_weak[row]; k < block.first_weak[row + 1];
-                             ++k)
-                            add(block.weak[k].part, glm::unpackF3x9_E1x5(block.weak[k].weight));
-                    }
-                }
+                LinkRows rows(blocks[b]);
+                const std::size_t end = std::min((b + 1) * kLinkBlock, order.size());
+                for (std::size_t o = b * kLinkBlock; o < end; ++o)
+                    count_row(system, order[o], rows.next(solver_.parts_.is_cut(order[o])));
             }
         for (std::uint32_t g = 0; g < size_; ++g)
             for (int c = 0; c < 3; ++c)
                 inverse_[c][std::size_t(g) * size_ + g] += 1.0;
+    }
+
+    void count_row(const System& system, std::uint32_t i, const LinkRow& row)
+    {
+        const SubLumels& parts = solver_.parts_;
+        const std::uint32_t first = parts.first(i), last = parts.end(i);
+        const Lumel& lumel = solver_.work_.lumels()[i];
+        const auto add = [&](std::size_t k, LinkEnd to, const glm::vec3& weight) {
+            if (!solver_.numbers_.is_part(to.number()))
+                return;
+            const std::uint32_t p = first + row.leaves(parts, i, k), a = solver_.group_[p];
+            const double share = double(lumel.area) / double(last - first) /
+                                 std::max(area_[a], kMinArea) / double(system.source.rays[p]);
+            const std::uint32_t b = solver_.group_[solver_.numbers_.part(to.number())];
+            for (int c = 0; c < 3; ++c)
+                inverse_[c][std::size_t(a) * size_ + b] -=
+                    share * double(lumel.albedo[c] * weight[c]);
+        };
+        for (std::size_t k = 0; k < row.ends.size(); ++k)
+            add(k, row.ends[k], glm::vec3(1.0f));
+        for (const NearLink& near : row.near)
+            add(near.slot - row.first_slot, near.end, glm::unpackF3x9_E1x5(near.weight));
     }
 
     /// In place, by Gauss-Jordan elimination with diagonal pivots: 1 - K is diagonally dominant.
@@ -184,13 +203,13 @@ private:
     std::vector<double> area_;        ///< [groups] [m²]
 };
 
-LinkSolver::LinkSolver(const Lumels& lumels, const WorldLumels& world, const SubLumels& parts,
-                       const std::vector<std::uint32_t>& order)
-    : lumels_(lumels),
+LinkSolver::LinkSolver(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers)
+    : work_(work),
       parts_(parts),
-      order_(order),
+      numbers_(numbers),
       group_(parts.count())
 {
+    const WorldLumels& world = work.world;
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (std::size_t i = 0; i < world.size(); ++i) {
         low = glm::min(low, world[i].centre);
@@ -211,32 +230,40 @@ LinkSolver::LinkSolver(const Lumels& lumels, const WorldLumels& world, const Sub
 }
 
 /// Computes X of a block's sub-lumels from the light that all send, and the light they then send.
-LinkSolver::Change LinkSolver::sweep_block(const LinkSet& gathered, std::size_t b, double floor,
+LinkSolver::Change LinkSolver::sweep_block(const System& system, std::size_t b, double floor,
                                            const std::vector<Reflected>& sent,
                                            std::vector<Reflected>& next,
                                            std::vector<glm::vec3>& received) const
 {
     Change change;
-    std::size_t row = 0;
-    const std::size_t end = std::min((b + 1) * kLinkBlock, order_.size());
+    std::vector<LinkRows> rounds;
+    for (const std::vector<LinkBlock>& round : system.links.rounds)
+        rounds.emplace_back(round[b]);
+    const std::size_t end = std::min((b + 1) * kLinkBlock, work_.order.size());
     for (std::size_t o = b * kLinkBlock; o < end; ++o) {
-        const std::uint32_t i = order_[o];
-        glm::vec3 of_all(0.0f);
+        const std::uint32_t i = work_.order[o], first = parts_.first(i), last = parts_.end(i);
+        std::array<glm::vec4, kMaxParts> sums;
+        for (std::uint32_t p = first; p < last; ++p)
+            sums[p - first] = glm::vec4(system.source.light[p], 0.0f);
+        for (LinkRows& rows : rounds)
+            add_row(rows.next(parts_.is_cut(i)), parts_, i, sent, sums);
+        glm::vec4 of_all(0.0f);
         std::uint32_t rays = 0;
-        for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p, ++row) {
-            const glm::vec3 sum = received_by(gathered, b, row, p, sent);
-            of_all += sum;
-            rays += gathered.rays[p];
-            if (gathered.rays[p] > 0)
-                received[p] = sum / float(gathered.rays[p]);
+        for (std::uint32_t p = first; p < last; ++p) {
+            const std::uint32_t own = system.source.rays[p];
+            of_all += sums[p - first];
+            rays += own;
+            if (own > 0)
+                received[p] = glm::vec3(sums[p - first]) / float(own);
         }
-        for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p) {
+        for (std::uint32_t p = first; p < last; ++p) {
             // A sub-lumel without rays takes the lumel's mean.
-            if (gathered.rays[p] == 0)
-                received[p] = rays > 0 ? of_all / float(rays) : glm::vec3(0.0f);
-            next[p] = glm::vec4(lumels_.lumels[i].albedo * received[p], 0.0f);
-            const double now = double(next[p].x + next[p].y + next[p].z);
-            const double before = double(sent[p].x + sent[p].y + sent[p].z);
+            if (system.source.rays[p] == 0)
+                received[p] = rays > 0 ? glm::vec3(of_all) / float(rays) : glm::vec3(0.0f);
+            const std::uint32_t n = numbers_.of_part(p);
+            next[n] = glm::vec4(work_.lumels()[i].albedo * received[p], 0.0f);
+            const double now = double(next[n].x + next[n].y + next[n].z);
+            const double before = double(sent[n].x + sent[n].y + sent[n].z);
             if (now > 0.0) {
                 const double relative = (now - before) / (now + floor);
                 change.squares += relative * relative;
@@ -247,37 +274,24 @@ LinkSolver::Change LinkSolver::sweep_block(const LinkSet& gathered, std::size_t 
     return change;
 }
 
-/// Σ of the light along all rays of sub-lumel p, in a row of the block.
-glm::vec3 LinkSolver::received_by(const LinkSet& gathered, std::size_t b, std::size_t row,
-                                  std::uint32_t p, const std::vector<Reflected>& sent) const
+void LinkSolver::solve(const LinkTable& links, const SourceTerm& source,
+                       std::vector<glm::vec3>& received) const
 {
-    glm::vec4 sum(gathered.reflected[p] + gathered.sky[p], 0.0f);
-    for (const std::vector<LinkBlock>& round : gathered.rounds) {
-        const LinkBlock& block = round[b];
-        for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
-            sum += sent[block.target[k]];
-        for (std::uint32_t k = block.first_weak[row]; k < block.first_weak[row + 1]; ++k)
-            sum += sent[block.weak[k].part] *
-                   glm::vec4(glm::unpackF3x9_E1x5(block.weak[k].weight), 0.0f);
-    }
-    return glm::vec3(sum);
-}
-
-void LinkSolver::solve(const LinkSet& gathered, std::vector<glm::vec3>& received) const
-{
+    const System system{links, source};
     const std::size_t parts = parts_.count(),
-                      blocks = (order_.size() + kLinkBlock - 1) / kLinkBlock;
+                      blocks = (work_.order.size() + kLinkBlock - 1) / kLinkBlock;
     received.resize(parts, glm::vec3(0.0f));
-    std::vector<Reflected> sent(parts), next(parts);
-    for (std::size_t p = 0; p < parts; ++p)
-        sent[p] = glm::vec4(lumels_.lumels[parts_.lumel(p)].albedo * received[p], 0.0f);
+    std::vector<Reflected> sent(numbers_.count(), Reflected(0.0f)), next(sent);
+    for (std::uint32_t p = 0; p < parts; ++p)
+        sent[numbers_.of_part(p)] =
+            glm::vec4(work_.lumels()[parts_.lumel(p)].albedo * received[p], 0.0f);
     std::optional<Groups> groups;
     std::vector<Change> changes(blocks);
-    double before = 0.0, floor = kDarkestCounted * mean_of(sent);
+    double before = 0.0, floor = kDarkestCounted * mean_of(sent, parts);
     for (int sweep = 1; sweep <= kSweepLimit; ++sweep) {
         parallel_for(blocks, kBlocksPerTask, [&](std::size_t first, std::size_t last) {
             for (std::size_t b = first; b < last; ++b)
-                changes[b] = sweep_block(gathered, b, floor, sent, next, received);
+                changes[b] = sweep_block(system, b, floor, sent, next, received);
         });
         Change all;
         for (const Change& change : changes) {
@@ -295,9 +309,9 @@ void LinkSolver::solve(const LinkSet& gathered, std::vector<glm::vec3>& received
         if (size == 0.0 || (sweep > kFirstSweeps && to_come < kStill))
             return;
         if (sweep == 1)
-            floor = kDarkestCounted * mean_of(sent);
+            floor = kDarkestCounted * mean_of(sent, parts);
         if (sweep == kPlainSweeps)
-            groups.emplace(*this, gathered);
+            groups.emplace(*this, system);
     }
 }
 

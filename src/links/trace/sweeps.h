@@ -6,7 +6,8 @@
 
 #include <glm/glm.hpp>
 
-#include "links/trace/tracer.h"
+#include "atlas/near/world_lumels.h"
+#include "links/trace/source_term.h"
 
 namespace lumel {
 
@@ -14,18 +15,18 @@ namespace lumel {
 ///
 ///     X_p = (1/n_p) Σ_k (C_pk + w_pk ρ X[target_pk]),
 ///
-/// where C is direct and sky light at the ray hits and w the weight of a link. Jacobi sweeps until
+/// where C is direct and sky light at the ends of the rays and w the weight of a link. Jacobi sweeps until
 /// converged; if they are slow, as in bright closed rooms, with a coarse correction by groups of
 /// sub-lumels that face the same way in one cell of the scene.
 class LinkSolver {
 public:
     /// All arguments must outlive this.
-    LinkSolver(const Lumels& lumels, const WorldLumels& world, const SubLumels& parts,
-               const std::vector<std::uint32_t>& order);
+    LinkSolver(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers);
 
     /// X [P] [lx]; starts from `received` unless it is empty. Throws Error{input} if the light of a
     /// closed room is never absorbed.
-    void solve(const LinkSet& gathered, std::vector<glm::vec3>& received) const;
+    void solve(const LinkTable& links, const SourceTerm& source,
+               std::vector<glm::vec3>& received) const;
 
 private:
     class Groups;
@@ -36,15 +37,19 @@ private:
         std::size_t count = 0;
     };
 
-    Change sweep_block(const LinkSet& gathered, std::size_t block, double floor,
+    /// Links with the light at their ends.
+    struct System {
+        const LinkTable& links;
+        const SourceTerm& source;
+    };
+
+    Change sweep_block(const System& system, std::size_t block, double floor,
                        const std::vector<Reflected>& sent, std::vector<Reflected>& next,
                        std::vector<glm::vec3>& received) const;
-    glm::vec3 received_by(const LinkSet& gathered, std::size_t block, std::size_t row,
-                          std::uint32_t part, const std::vector<Reflected>& sent) const;
 
-    const Lumels& lumels_;
+    const LinkWork& work_;
     const SubLumels& parts_;
-    const std::vector<std::uint32_t>& order_;
+    const LinkNumbers& numbers_;
     std::vector<std::uint32_t> group_;  ///< [P]
     std::uint32_t group_count_ = 0;
 };

@@ -38,22 +38,31 @@ constexpr std::uint32_t kOriginPair = 0, kDirectionPair = 1, kPassPair = 2, kFir
 
 }  // namespace
 
-/// A ray from a lumel with its reflections: gathered light and remaining weight.
-struct LinkTracer::Path {
-    PathSamples samples;
-    std::uint32_t from;  ///< sub-lumel of origin
-    float size;          ///< size of the last lumel on the path [m]
-    glm::vec3 weight{1.0f};
-    glm::vec3 reflected{0.0f};  ///< reflected by surfaces [lx]
-    glm::vec3 sky{0.0f};        ///< [lx]
-    HitKind met = HitKind::nothing;
-    std::uint32_t part = 0;  ///< sub-lumel that it hit
-    float nearest = kFar;    ///< distance to the first hit [m]
+/// What a ray meets: a lumel, or an end.
+struct LinkTracer::Landing {
+    std::uint32_t lumel = kNoLumel;
+    std::uint32_t end = 0;  ///< number, without a lumel
+    std::uint32_t cell = 0;
+    float sides = 0.0f;  ///< distance in sides of the larger lumel
+    glm::vec3 position{0.0f};
 };
 
-/// A ray's hit on a lumel.
+/// A ray that is reflected, crosses glass or may be hidden from its cell: what is known of it.
+struct LinkTracer::Path {
+    PathSamples samples;
+    std::uint32_t slot;
+    float size;          ///< size of the last lumel on the path [m]
+    glm::vec3 weight;    ///< that remains
+    float distance;      ///< to the first hit [m], or NearLink::kNoHit
+    LinkEnd end;         ///< once it ended
+    glm::vec3 light{0.0f};    ///< gathered [lx]
+    bool is_straight = true;  ///< not reflected
+};
+
+/// A path's hit on a lumel.
 struct LinkTracer::PathHit {
-    std::uint32_t ray;  ///< ray of the batch
+    std::uint32_t ray;   ///< of the batch
+    std::uint32_t path;
     std::uint32_t lumel, cell;
     glm::vec3 position;              ///< [m]
     bool may_be_hidden;              ///< the hit may be occluded from the lumel's cells
@@ -63,19 +72,29 @@ struct LinkTracer::PathHit {
     std::uint32_t unseen_cells = 0;  ///< bit c: cell c was tested, and is occluded
 };
 
-/// Paths traced together, one reflection at a time.
-struct LinkTracer::RayBatch {
-    std::vector<std::uint32_t> lumels;
-    std::vector<std::uint32_t> paths_before;  ///< [lumels + 1]
-    std::vector<Path> paths;                  ///< grouped by lumel
+/// Light of the sky along a ray.
+struct LinkTracer::SkyRay {
+    std::uint32_t slot;
+    glm::vec3 light;  ///< [lx]
+};
 
-    // Paths that have not ended.
-    int reflections = 0;
+/// Rays traced together, and their paths, one reflection at a time.
+struct LinkTracer::RayBatch {
+    // Results, in slots of the batch.
+    std::vector<std::uint32_t> lumels;
+    std::vector<std::uint32_t> streams;       ///< [lumels] of their random numbers
+    std::vector<std::uint32_t> slots_before;  ///< [lumels + 1]
+    std::vector<LinkEnd> ends;                ///< [slots]
+    std::vector<std::uint8_t> from;           ///< [slots] cells that the rays leave
+    std::vector<SkyRay> sky;                  ///< by slot
+    std::vector<Path> paths;                  ///< by slot
+
+    // Rays that have not ended.
     std::vector<RaySpan> rays;
-    std::vector<std::uint32_t> path_of;  ///< [rays]
-    std::vector<RayHit> hits;            ///< [rays or more]
-    std::vector<std::uint32_t> along;    ///< [rays] shared direction, for first rays
-    bool is_cast = false;                ///< hits of first rays are known
+    std::vector<std::uint32_t> of;     ///< [rays] slots of first rays, paths of later ones
+    std::vector<RayHit> hits;          ///< [rays or more]
+    std::vector<std::uint32_t> along;  ///< [rays] shared direction, for first rays
+    bool is_cast = false;              ///< hits of first rays are known
     std::vector<PathHit> arrivals;
 
     // One reflection; members to reuse their memory.
@@ -84,44 +103,30 @@ struct LinkTracer::RayBatch {
     std::vector<glm::vec3> transmittance;  ///< [to_cells]
     ShadowRays looks;
     std::vector<RaySpan> next_rays;
-    std::vector<std::uint32_t> next_path_of;  ///< [next_rays]
-    std::vector<std::uint32_t> looking;       ///< paths with shadow rays
+    std::vector<std::uint32_t> next_of;  ///< [next_rays]
+    std::vector<std::uint32_t> looking;  ///< paths with shadow rays
 
     RayBatch() { begin(); }
     void begin()
     {
         lumels.clear();
-        paths_before.assign(1, 0);
+        streams.clear();
+        slots_before.assign(1, 0);
+        ends.clear();
+        from.clear();
+        sky.clear();
         paths.clear();
         rays.clear();
-        path_of.clear();
+        of.clear();
         along.clear();
     }
 };
 
-bool LinkSet::is_closed() const
-{
-    return std::none_of(rounds.begin(), rounds.end(), [](const std::vector<LinkBlock>& blocks) {
-        return std::any_of(blocks.begin(), blocks.end(),
-                           [](const LinkBlock& block) { return block.loses; });
-    });
-}
-
-std::size_t LinkSet::bytes() const
-{
-    std::size_t bytes = 0;
-    for (const std::vector<LinkBlock>& blocks : rounds)
-        for (const LinkBlock& block : blocks)
-            bytes += (block.first.size() + block.target.size() + block.first_weak.size()) *
-                         sizeof(std::uint32_t) +
-                     block.weak.size() * sizeof(AttenuatedLink);
-    return bytes;
-}
-
-LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const DirectEstimator& direct,
-                       std::uint32_t seed)
+LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
+                       const DirectEstimator& direct, std::uint32_t seed)
     : work_(work),
       parts_(parts),
+      numbers_(numbers),
       direct_(direct),
       hits_(work.scene.scene, work.scene.atlas, work.scene.lumels),
       seed_(seed),
@@ -129,10 +134,11 @@ LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const Direc
 {
 }
 
+/// Adds the rays of lumel i.
 void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) const
 {
     const Lumel& lumel = work_.lumels()[i];
-    const std::uint32_t rays = (lumel.flags & kLumelBuried) != 0 ? 0u : sending.rays[i];
+    const std::uint32_t rays = work_.is_buried(i) ? 0u : sending.rays[i];
     const std::uint32_t own = PathSamples::hash(PathSamples::hash(seed_, sending.stream), i);
     std::optional<CosineDraw> shared;
     if (sending.shared) {
@@ -153,15 +159,16 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
             direction = frame_about(start.normal) * by_cosine(samples.stratified(kDirectionPair));
         }
         if (start.cosine(direction) > 0.0f) {
-            wave.path_of.push_back(std::uint32_t(wave.paths.size()));
+            wave.of.push_back(std::uint32_t(wave.ends.size()));
             wave.rays.push_back(ray_out(start.position, direction, samples.bits(kPassPair)));
             wave.along.push_back(along);
         }
-        wave.paths.push_back(
-            {.samples = samples, .from = parts_.part(i, start.cell), .size = work_.world[i].size});
+        wave.ends.push_back(LinkEnd::of(LinkNumbers::kBelow));
+        wave.from.push_back(std::uint8_t(start.cell));
     }
     wave.lumels.push_back(i);
-    wave.paths_before.push_back(std::uint32_t(wave.paths.size()));
+    wave.streams.push_back(own);
+    wave.slots_before.push_back(std::uint32_t(wave.ends.size()));
 }
 
 /// Traces the first rays of several batches together.
@@ -186,61 +193,119 @@ void LinkTracer::cast_bundles(const SharedDirections& shared, std::vector<RayBat
 
 void LinkTracer::follow(RayBatch& wave) const
 {
-    for (wave.reflections = 0; !wave.rays.empty(); ++wave.reflections) {
+    for (int reflections = 0; !wave.rays.empty(); ++reflections) {
         const std::size_t count = wave.rays.size();
         wave.hits.resize(std::max(wave.hits.size(), count));
-        if (wave.reflections > 0 || !wave.is_cast)
+        if (reflections > 0 || !wave.is_cast)
             work_.caster().closest(wave.rays, std::span(wave.hits).first(count));
-        meet(wave);
-        find_seen_cells(wave);
-        end_or_reflect(wave);
+        wave.arrivals.clear();
+        if (reflections == 0)
+            meet_first(wave);
+        else
+            meet(wave, reflections);
+        find_seen_cells(wave, reflections);
+        end_or_reflect(wave, reflections);
     }
 }
 
-/// Ends paths that hit no lumel; makes a PathHit of the others.
-void LinkTracer::meet(RayBatch& wave) const
+/// size: of the lumel that the ray leaves.
+LinkTracer::Landing LinkTracer::land(const RaySpan& ray, const RayHit& hit, float size) const
 {
-    wave.arrivals.clear();
+    if (hit.distance == RayCaster::kNothing)
+        return {.end = LinkNumbers::kSky};
+    const std::size_t surface = work_.scene.surfaces.index(hit.instance, hit.primitive);
+    if (!hit.front && !work_.scene.surfaces.all()[surface].double_sided)
+        return {.end = numbers_.black_on(hit.instance)};
+    const std::uint32_t j = hits_.lumel(hit);
+    if (j == kNoLumel)
+        return {.end = numbers_.lost_on(hit.instance)};
+    const glm::vec3 position = ray.origin + hit.distance * ray.direction;
+    return {.lumel = j,
+            .cell = work_.cells.cell(j, position),
+            .sides = hit.distance / std::max(size, work_.world[j].size),
+            .position = position};
+}
+
+/// Ends first rays, but for those that need a path.
+void LinkTracer::meet_first(RayBatch& wave) const
+{
+    std::size_t n = 0;
+    for (std::uint32_t r = 0; r < wave.rays.size(); ++r) {
+        const std::uint32_t slot = wave.of[r];
+        while (slot >= wave.slots_before[n + 1])
+            ++n;
+        const RaySpan& ray = wave.rays[r];
+        const RayHit& hit = wave.hits[r];
+        const float size = work_.world[wave.lumels[n]].size;
+        const Landing at = land(ray, hit, size);
+        const bool is_lumel = at.lumel != kNoLumel;
+        if (hit.tint == glm::vec3(1.0f)) {
+            if (!is_lumel) {
+                wave.ends[slot] = LinkEnd::of(at.end);
+                if (at.end == LinkNumbers::kSky)
+                    wave.sky.push_back({slot, kPi * work_.sources.dim_sky(ray.direction)});
+                continue;
+            }
+            if (at.sides >= kNear && !parts_.is_cut(at.lumel)) {
+                wave.ends[slot] = LinkEnd::of(numbers_.of_part(parts_.first(at.lumel)), at.cell);
+                continue;
+            }
+        }
+        const auto path = std::uint32_t(wave.paths.size());
+        wave.paths.push_back({.samples = {wave.streams[n], slot - wave.slots_before[n]},
+                              .slot = slot,
+                              .size = size,
+                              .weight = hit.tint,
+                              .distance = at.end == LinkNumbers::kSky ? NearLink::kNoHit
+                                                                      : hit.distance,
+                              .end = LinkEnd::of(at.end)});
+        if (is_lumel)
+            wave.arrivals.push_back(
+                {.ray = r,
+                 .path = path,
+                 .lumel = at.lumel,
+                 .cell = at.cell,
+                 .position = at.position,
+                 .may_be_hidden = parts_.is_cut(at.lumel) || at.sides < kMayBeHidden,
+                 .looks_around =
+                     at.sides < (direct_.varies(at.lumel) ? kNear : kNearForCells),
+                 .goes_on = at.sides < kNear});
+        else if (at.end == LinkNumbers::kSky)
+            wave.paths.back().light = hit.tint * kPi * work_.sources.dim_sky(ray.direction);
+    }
+}
+
+/// Ends reflected paths that hit no lumel; makes a PathHit of the others.
+void LinkTracer::meet(RayBatch& wave, int reflections) const
+{
     for (std::uint32_t r = 0; r < wave.rays.size(); ++r) {
         const RaySpan& ray = wave.rays[r];
         const RayHit& hit = wave.hits[r];
-        Path& path = wave.paths[wave.path_of[r]];
+        Path& path = wave.paths[wave.of[r]];
         path.weight *= hit.tint;
-        if (hit.distance == RayCaster::kNothing) {
-            (wave.reflections == 0 ? path.sky : path.reflected) +=
-                path.weight * kPi * work_.sources.dim_sky(ray.direction);
-            path.met = HitKind::sky;
+        const Landing at = land(ray, hit, path.size);
+        if (at.lumel == kNoLumel) {
+            path.end = LinkEnd::of(at.end);
+            if (at.end == LinkNumbers::kSky)
+                path.light += path.weight * kPi * work_.sources.dim_sky(ray.direction);
             continue;
         }
-        if (wave.reflections == 0)
-            path.nearest = hit.distance;
-        path.met = HitKind::nothing;
-        const std::size_t surface = work_.scene.surfaces.index(hit.instance, hit.primitive);
-        if (!hit.front && !work_.scene.surfaces.all()[surface].double_sided)
-            continue;
-        const std::uint32_t j = hits_.lumel(hit);
-        if (j == kNoLumel) {
-            path.met = HitKind::lost;
-            continue;
-        }
-        const glm::vec3 position = ray.origin + hit.distance * ray.direction;
-        const float sides = hit.distance / std::max(path.size, work_.lumels()[j].size);
-        const bool may_go_on = wave.reflections < kMaxReflections, first = wave.reflections == 0;
-        const float near_for_light = direct_.varies(j) ? kNear : kNearForCells;
-        wave.arrivals.push_back(
-            {.ray = r,
-             .lumel = j,
-             .cell = work_.cells.cell(j, position),
-             .position = position,
-             .may_be_hidden = parts_.is_cut(j) || sides < kMayBeHidden,
-             .looks_around = may_go_on && sides < (first ? near_for_light : kTooNear),
-             .goes_on = may_go_on && sides < (first ? kNear : kTooNear)});
+        const bool is_near = reflections < kMaxReflections && at.sides < kTooNear;
+        wave.arrivals.push_back({.ray = r,
+                                 .path = wave.of[r],
+                                 .lumel = at.lumel,
+                                 .cell = at.cell,
+                                 .position = at.position,
+                                 .may_be_hidden = parts_.is_cut(at.lumel) ||
+                                                  at.sides < kMayBeHidden,
+                                 .looks_around = is_near,
+                                 .goes_on = is_near});
     }
 }
 
 /// For hits that may be occluded from their cell, finds the nearest visible cell of the lumel.
 /// Paths without one are reflected, up to the maximum.
-void LinkTracer::find_seen_cells(RayBatch& wave) const
+void LinkTracer::find_seen_cells(RayBatch& wave, int reflections) const
 {
     std::vector<std::uint32_t>& open = wave.open;
     open.clear();
@@ -258,7 +323,7 @@ void LinkTracer::find_seen_cells(RayBatch& wave) const
                 return false;
             }
             arrival.is_hidden = true;
-            arrival.goes_on = arrival.looks_around = wave.reflections < kMaxReflections;
+            arrival.goes_on = arrival.looks_around = reflections < kMaxReflections;
             return true;
         });
         wave.transmittance.resize(wave.to_cells.size());
@@ -297,52 +362,53 @@ std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, std::uint32_t s
 }
 
 /// Ends paths at the sub-lumels that they hit, or reflects them.
-void LinkTracer::end_or_reflect(RayBatch& wave) const
+void LinkTracer::end_or_reflect(RayBatch& wave, int reflections) const
 {
     wave.next_rays.clear();
-    wave.next_path_of.clear();
+    wave.next_of.clear();
     wave.looking.clear();
     wave.looks.clear();
     for (const PathHit& arrival : wave.arrivals) {
-        const std::uint32_t p = wave.path_of[arrival.ray];
-        Path& path = wave.paths[p];
+        Path& path = wave.paths[arrival.path];
         const glm::vec3& albedo = work_.lumels()[arrival.lumel].albedo;
+        path.end = LinkEnd::of(LinkNumbers::kBelow);
         if (arrival.is_hidden && !arrival.goes_on)
             continue;
         if (!arrival.looks_around)
-            path.reflected += path.weight * albedo * direct_.at(arrival.lumel, arrival.cell);
+            path.light += path.weight * albedo * direct_.at(arrival.lumel, arrival.cell);
         if (!arrival.goes_on) {
-            path.part = parts_.part(arrival.lumel, arrival.cell);
-            path.met = HitKind::part;
+            path.end = LinkEnd::of(numbers_.of_part(parts_.part(arrival.lumel, arrival.cell)),
+                                   arrival.cell);
             continue;
         }
+        path.is_straight = false;
         path.weight *= albedo;
         if (path.weight == glm::vec3(0.0f))
             continue;
-        wave.next_rays.push_back(reflect(wave, arrival, path, wave.looks));
-        wave.next_path_of.push_back(p);
+        wave.next_rays.push_back(reflect(wave, arrival, reflections, path, wave.looks));
+        wave.next_of.push_back(arrival.path);
         if (arrival.looks_around)
-            wave.looking.push_back(p);
+            wave.looking.push_back(arrival.path);
     }
     wave.looks.cast(work_.caster());
     for (std::uint32_t n = 0; n < wave.looking.size(); ++n) {
         Path& path = wave.paths[wave.looking[n]];
-        path.reflected += path.weight * direct_.light_of(wave.looks, n * direct_.looks_around());
+        path.light += path.weight * direct_.light_of(wave.looks, n * direct_.looks_around());
     }
     wave.rays.swap(wave.next_rays);
-    wave.path_of.swap(wave.next_path_of);
+    wave.of.swap(wave.next_of);
 }
 
 /// Queues the hit's shadow rays, if it has any, and returns the reflected ray.
-RaySpan LinkTracer::reflect(const RayBatch& wave, const PathHit& arrival, Path& path,
-                            ShadowRays& looks) const
+RaySpan LinkTracer::reflect(const RayBatch& wave, const PathHit& arrival, int reflections,
+                            Path& path, ShadowRays& looks) const
 {
     const RaySpan& ray = wave.rays[arrival.ray];
     const RayHit& hit = wave.hits[arrival.ray];
-    const auto pair_of = [](int reflections) {
-        return kFirstReflection + std::uint32_t(reflections) * kPerReflection;
+    const auto pair_of = [](int bounce) {
+        return kFirstReflection + std::uint32_t(bounce) * kPerReflection;
     };
-    const std::uint32_t pair = pair_of(wave.reflections);
+    const std::uint32_t pair = pair_of(reflections);
     const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
     const glm::vec3 origin = ray.origin +
                              ray.direction * std::max(0.0f, hit.distance - ray_offset_) +
@@ -352,71 +418,58 @@ RaySpan LinkTracer::reflect(const RayBatch& wave, const PathHit& arrival, Path& 
         direct_.sample_lights({origin, normal, normal, arrival.cell}, path.size,
                               path.samples.bits(pair), looks);
     return ray_out(origin, frame_about(normal) * by_cosine(path.samples.random(pair + 1)),
-                   path.samples.bits(pair_of(wave.reflections + 1)));
-}
-
-/// Stores the results of one lumel's paths.
-void LinkTracer::keep(const RayBatch& wave, std::size_t n, LinkBlock& block, LinkSet& into) const
-{
-    const std::uint32_t first = parts_.first(wave.lumels[n]);
-    const std::uint32_t parts = parts_.end(wave.lumels[n]) - first;
-    const std::span<const Path> paths =
-        std::span(wave.paths)
-            .subspan(wave.paths_before[n], wave.paths_before[n + 1] - wave.paths_before[n]);
-    for (const Path& path : paths) {
-        into.nearest[path.from] = std::min(into.nearest[path.from], path.nearest);
-        block.loses = block.loses || path.met != HitKind::part;
-        if (path.met == HitKind::lost)
-            continue;
-        ++into.rays[path.from];
-        into.reflected[path.from] += path.reflected;
-        into.sky[path.from] += path.sky;
-    }
-    for (std::uint32_t p = first; p < first + parts; ++p) {
-        for (const Path& path : paths) {
-            if (path.from != p || path.met != HitKind::part)
-                continue;
-            if (path.weight == glm::vec3(1.0f))
-                block.target.push_back(path.part);
-            else
-                block.weak.push_back({path.part, glm::packF3x9_E1x5(path.weight)});
-        }
-        block.first.push_back(std::uint32_t(block.target.size()));
-        block.first_weak.push_back(std::uint32_t(block.weak.size()));
-    }
+                   path.samples.bits(pair_of(reflections + 1)));
 }
 
 /// Stores the results of a batch, whose lumels are those of work_.order from `first` on.
-void LinkTracer::keep_all(const RayBatch& wave, std::size_t first, LinkSet& into) const
+void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
 {
+    for (const Path& path : wave.paths)
+        wave.ends[path.slot] = path.is_straight && path.weight == glm::vec3(1.0f)
+                                   ? path.end
+                                   : LinkEnd::of(LinkNumbers::kNear);
+    auto sky = wave.sky.begin();
+    auto path = wave.paths.begin();
     for (std::size_t n = 0; n < wave.lumels.size(); ++n) {
         LinkBlock& block = into.rounds.back()[(first + n) / kLinkBlock];
-        if (block.first.empty()) {
-            block.first.push_back(0);
-            block.first_weak.push_back(0);
-        }
-        keep(wave, n, block, into);
+        const std::uint32_t i = wave.lumels[n], begin = wave.slots_before[n],
+                            end = wave.slots_before[n + 1];
+        const auto in_block = [&](std::uint32_t slot) {
+            return std::uint32_t(block.ends.size()) + slot - begin;
+        };
+        for (; path != wave.paths.end() && path->slot < end; ++path)
+            if (wave.ends[path->slot].number() == LinkNumbers::kNear)
+                block.near.push_back({in_block(path->slot), path->end,
+                                      glm::packF3x9_E1x5(path->weight), path->distance,
+                                      path->light});
+        for (; sky != wave.sky.end() && sky->slot < end; ++sky)
+            into.sky[parts_.part(i, wave.from[sky->slot])] += sky->light;
+        if (parts_.is_cut(i))
+            block.from.insert(block.from.end(), wave.from.begin() + begin,
+                              wave.from.begin() + end);
+        block.rays.push_back(std::uint16_t(end - begin));
+        block.ends.insert(block.ends.end(), wave.ends.begin() + begin, wave.ends.begin() + end);
     }
 }
 
 void LinkTracer::trace_blocks(std::size_t first, std::size_t last, const Sending& sending,
-                              LinkSet& into) const
+                              LinkTable& into) const
 {
     const std::size_t end = std::min(last * kLinkBlock, work_.order.size());
     RayBatch wave;
     for (std::size_t o = first * kLinkBlock; o < end; ++o) {
         add(work_.order[o], sending, wave);
-        if (wave.paths.size() < work_.caster().batch() && o + 1 < end)
+        if (wave.ends.size() < work_.caster().batch() && o + 1 < end)
             continue;
         follow(wave);
-        keep_all(wave, o + 1 - wave.lumels.size(), into);
+        keep(wave, o + 1 - wave.lumels.size(), into);
         wave.begin();
     }
 }
 
 /// Traces by bundles: one drawing serves all blocks.
 void LinkTracer::trace_bundles(std::size_t first, std::size_t last, const Sending& sending,
-                               LinkSet& into) const
+                               LinkTable& into) const
 {
     std::vector<RayBatch> waves(last - first);
     const auto for_each_wave = [&](const auto& what) {
@@ -432,12 +485,12 @@ void LinkTracer::trace_bundles(std::size_t first, std::size_t last, const Sendin
     cast_bundles(*sending.shared, waves);
     for_each_wave([&](RayBatch& wave, std::size_t begin) {
         follow(wave);
-        keep_all(wave, begin, into);
+        keep(wave, begin, into);
     });
 }
 
 void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sending,
-                       LinkSet& into) const
+                       LinkTable& into) const
 {
     if (sending.shared && work_.casters.bundles) {
         trace_bundles(first, last, sending, into);
@@ -453,10 +506,9 @@ void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sendi
     }
     for (std::size_t b = first; b < last; ++b) {
         LinkBlock& block = into.rounds.back()[b];
-        block.first.shrink_to_fit();
-        block.target.shrink_to_fit();
-        block.first_weak.shrink_to_fit();
-        block.weak.shrink_to_fit();
+        block.ends.shrink_to_fit();
+        block.from.shrink_to_fit();
+        block.near.shrink_to_fit();
     }
 }
 

@@ -22,8 +22,9 @@ struct TracedRoom {
           work(scene, {cast_on_host(scene.rays)}, SampleRule::area, order_in_space),
           parts(work.world, work.cells, scene.rays, scene.lumels, kPartStream),
           direct(work, kDirectStream),
-          tracer(work, parts, direct, 1),
-          solver(scene.lumels, work.world, parts, work.order),
+          numbers(scene.scene.instances.size(), parts.count()),
+          tracer(work, parts, numbers, direct, 1),
+          solver(work, parts, numbers),
           links(parts.count())
     {
         while (direct.step()) {
@@ -37,47 +38,68 @@ struct TracedRoom {
         const std::vector<std::uint16_t> each(work.order.size(), rays);
         tracer.trace(0, tracer.blocks(),
                      {each, kLinkStream + std::uint32_t(links.rounds.size()), nullptr}, links);
-        solver.solve(links, received);
+        source = find_source_term(work, parts, numbers, {work, parts, numbers, direct}, links);
+        solver.solve(links, source, received);
     }
 
     SolveScene scene;
     LinkWork work;
     SubLumels parts;
     DirectEstimator direct;
+    LinkNumbers numbers;
     LinkTracer tracer;
     LinkSolver solver;
-    LinkSet links;
+    LinkTable links;
+    SourceTerm source;
     std::vector<glm::vec3> received;  ///< [P] [lx]
 };
 
-/// C + K ρ X of each sub-lumel: the mean over its rays of what they meet. One without rays has the
-/// mean of its lumel.
-Light swept(const TracedRoom& room, const Light& light)
+/// A link from a sub-lumel to another.
+struct Link {
+    std::uint32_t from, to;
+    glm::dvec3 weight;
+};
+
+std::vector<Link> links_of(const TracedRoom& room)
 {
-    const auto sent = [&](std::uint32_t part) {
-        const std::size_t lumel = room.parts.lumel(part);
-        return glm::dvec3(room.work.lumels()[lumel].albedo) * light[part];
+    std::vector<Link> all;
+    const auto add = [&](std::uint32_t from, LinkEnd end, const glm::dvec3& weight) {
+        if (room.numbers.is_part(end.number()))
+            all.push_back({from, room.numbers.part(end.number()), weight});
     };
-    Light sum(light.size());
-    for (std::size_t p = 0; p < sum.size(); ++p)
-        sum[p] = glm::dvec3(room.links.reflected[p]) + glm::dvec3(room.links.sky[p]);
-    for (const std::vector<LinkBlock>& round : room.links.rounds) {
-        std::size_t place = 0;
-        for (const LinkBlock& block : round)
-            for (std::size_t row = 0; row + 1 < block.first.size();) {
-                const std::uint32_t lumel = room.work.order[place++];
-                for (std::uint32_t p = room.parts.first(lumel); p < room.parts.end(lumel);
-                     ++p, ++row) {
-                    for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
-                        sum[p] += sent(block.target[k]);
-                    for (std::uint32_t k = block.first_weak[row]; k < block.first_weak[row + 1];
-                         ++k)
-                        sum[p] += sent(block.weak[k].part) *
-                                  glm::dvec3(glm::unpackF3x9_E1x5(block.weak[k].weight));
+    for (const std::vector<LinkBlock>& round : room.links.rounds)
+        for (std::size_t b = 0; b < round.size(); ++b) {
+            std::size_t slot = 0, left = 0, near = 0;
+            for (std::size_t n = 0; n < round[b].rays.size(); ++n) {
+                const std::uint32_t lumel = room.work.order[b * kLinkBlock + n];
+                for (std::size_t k = 0; k < round[b].rays[n]; ++k, ++slot) {
+                    const std::uint32_t cell =
+                        room.parts.is_cut(lumel) ? round[b].from[left++] : 0u;
+                    const std::uint32_t from = room.parts.part(lumel, cell);
+                    const std::vector<NearLink>& by_slot = round[b].near;
+                    if (near < by_slot.size() && by_slot[near].slot == slot) {
+                        add(from, by_slot[near].end,
+                            glm::unpackF3x9_E1x5(by_slot[near].weight));
+                        ++near;
+                    } else {
+                        add(from, round[b].ends[slot], glm::dvec3(1.0));
+                    }
                 }
             }
-    }
-    const std::vector<std::uint32_t>& rays = room.links.rays;
+        }
+    return all;
+}
+
+/// C + K ρ X of each sub-lumel: the mean over its rays of what they meet. One without rays has the
+/// mean of its lumel.
+Light swept(const TracedRoom& room, const std::vector<Link>& links, const Light& light)
+{
+    Light sum(room.source.light.begin(), room.source.light.end());
+    for (const Link& link : links)
+        sum[link.from] += link.weight *
+                          glm::dvec3(room.work.lumels()[room.parts.lumel(link.to)].albedo) *
+                          light[link.to];
+    const std::vector<std::uint32_t>& rays = room.source.rays;
     for (std::size_t i = 0; i < room.work.lumels().size(); ++i) {
         glm::dvec3 of_lumel(0.0);
         double all = 0.0;
@@ -102,15 +124,16 @@ double distance_from_limit(const TracedRoom& room)
     constexpr double kDarkest = 1e-4;
     const auto sum_of = [](const glm::dvec3& light) { return light.r + light.g + light.b; };
     Light limit(room.received.begin(), room.received.end());
+    const std::vector<Link> links = links_of(room);
     for (int sweep = 0; sweep < kSweeps; ++sweep)
-        limit = swept(room, limit);
+        limit = swept(room, links, limit);
     double mean = 0.0, squares = 0.0;
     for (const glm::dvec3& light : limit)
         mean += sum_of(light) / double(limit.size());
     EXPECT_GT(mean, 0.0);
     std::size_t count = 0;
     for (std::size_t p = 0; p < limit.size(); ++p)
-        if (room.links.rays[p] > 0 && sum_of(limit[p]) > 0.0) {
+        if (room.source.rays[p] > 0 && sum_of(limit[p]) > 0.0) {
             squares += std::pow(sum_of(glm::dvec3(room.received[p]) - limit[p]) /
                                     (sum_of(limit[p]) + kDarkest * mean),
                                 2.0);

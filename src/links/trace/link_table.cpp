@@ -1,0 +1,81 @@
+#include "links/trace/link_table.h"
+
+#include <algorithm>
+
+#include "base/core/error.h"
+
+namespace lumel {
+namespace {
+
+bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const SubLumels& parts,
+          const LinkNumbers& numbers)
+{
+    if (block.rays.empty())
+        return block.ends.empty() && block.from.empty() && block.near.empty();
+    if (block.rays.size() != lumels.size())
+        return false;
+    std::size_t slots = 0, of_cut = 0;
+    for (std::size_t n = 0; n < lumels.size(); ++n) {
+        slots += block.rays[n];
+        of_cut += parts.is_cut(lumels[n]) ? block.rays[n] : 0;
+    }
+    if (block.ends.size() != slots || block.from.size() != of_cut)
+        return false;
+    const auto is_known = [&](LinkEnd end) { return end.number() < numbers.count(); };
+    std::size_t next_slot = 0, near = 0;
+    for (const NearLink& one : block.near) {
+        if (one.slot < next_slot || one.slot >= slots || !is_known(one.end) ||
+            one.end.number() == LinkNumbers::kNear ||
+            block.ends[one.slot].number() != LinkNumbers::kNear)
+            return false;
+        next_slot = std::size_t(one.slot) + 1;
+    }
+    for (const LinkEnd end : block.ends)
+        near += end.number() == LinkNumbers::kNear ? 1 : 0;
+    return near == block.near.size() && std::all_of(block.ends.begin(), block.ends.end(), is_known) &&
+           std::all_of(block.from.begin(), block.from.end(),
+                       [](std::uint8_t cell) { return cell < kCells; });
+}
+
+}  // namespace
+
+LinkNumbers::LinkNumbers(std::size_t instances, std::size_t parts)
+    : first_part_(std::uint32_t(kFirst + 2 * instances)),
+      count_(std::uint32_t(first_part_ + parts))
+{
+    if (kFirst + 2 * instances + parts > LinkEnd::kMaxNumber)
+        throw Error(ErrorKind::input, std::to_string(parts) + " lumels",
+                    "are more than links can number; use a smaller --size");
+}
+
+std::size_t LinkTable::bytes() const
+{
+    std::size_t bytes = 0;
+    for (const std::vector<LinkBlock>& blocks : rounds)
+        for (const LinkBlock& block : blocks)
+            bytes += block.rays.size() * sizeof(std::uint16_t) +
+                     block.ends.size() * sizeof(LinkEnd) + block.from.size() +
+                     block.near.size() * sizeof(NearLink);
+    return bytes;
+}
+
+bool LinkTable::fits(const std::vector<std::uint32_t>& order, const SubLumels& parts,
+                     const LinkNumbers& numbers) const
+{
+    const std::size_t blocks = (order.size() + kLinkBlock - 1) / kLinkBlock;
+    return sky.size() == parts.count() &&
+           std::all_of(rounds.begin(), rounds.end(), [&](const std::vector<LinkBlock>& round) {
+               for (std::size_t b = 0; b < round.size(); ++b) {
+                   const std::size_t first = b * kLinkBlock;
+                   if (round.size() != blocks ||
+                       !lumel::fits(round[b],
+                                    std::span(order).subspan(
+                                        first, std::min(kLinkBlock, order.size() - first)),
+                                    parts, numbers))
+                       return false;
+               }
+               return round.size() == blocks;
+           });
+}
+
+}  // namespace lumel

@@ -1,0 +1,150 @@
+#pragma once
+// The table of links: what each ray of the lumels hit. It depends on geometry alone, except for the
+// light of rays that are reflected close to their lumel.
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "atlas/cells/cells.h"
+
+namespace lumel {
+
+/// What a ray hit: a number, and the cell of the lumel there.
+struct LinkEnd {
+    static constexpr std::uint32_t kCellBits = 4, kMaxNumber = (1u << (32 - kCellBits)) - 1;
+    static_assert(kCells == 1 << kCellBits);
+
+    std::uint32_t bits = 0;
+
+    static LinkEnd of(std::uint32_t number, std::uint32_t cell = 0)
+    {
+        return {number << kCellBits | cell};
+    }
+    std::uint32_t number() const { return bits >> kCellBits; }
+    std::uint32_t cell() const { return bits & (kCells - 1); }
+
+    friend bool operator==(const LinkEnd&, const LinkEnd&) = default;
+};
+
+/// Numbers of ends: some fixed ones, then two of each instance, then sub-lumels.
+class LinkNumbers {
+public:
+    static constexpr std::uint32_t kBelow = 0;  ///< left below its own surface: black
+    static constexpr std::uint32_t kSky = 1;
+    static constexpr std::uint32_t kNear = 2;  ///< the NearLink of this ray has the end
+
+    /// Throws Error{input} if there are more than kMaxNumber.
+    LinkNumbers(std::size_t instances, std::size_t parts);
+
+    /// Absorbed by the back of a single-sided surface.
+    std::uint32_t black_on(std::uint32_t instance) const { return kFirst + 2 * instance; }
+    /// Hit an instance where it has no lumel: the ray does not count.
+    std::uint32_t lost_on(std::uint32_t instance) const { return kFirst + 2 * instance + 1; }
+    std::uint32_t of_part(std::uint32_t part) const { return first_part_ + part; }
+
+    bool is_part(std::uint32_t number) const { return number >= first_part_; }
+    bool is_lost(std::uint32_t number) const
+    {
+        return number >= kFirst && number < first_part_ && (number - kFirst) % 2 == 1;
+    }
+    std::uint32_t part(std::uint32_t number) const { return number - first_part_; }
+    std::uint32_t count() const { return count_; }
+
+private:
+    static constexpr std::uint32_t kFirst = 3;
+    std::uint32_t first_part_, count_;
+};
+
+/// A ray that was reflected within a short distance, or crossed glass.
+struct NearLink {
+    static constexpr float kNoHit = std::numeric_limits<float>::max();
+
+    std::uint32_t slot;  ///< index of the ray in its block
+    LinkEnd end;
+    std::uint32_t weight;  ///< remaining weight, RGB9E5
+    float distance;        ///< to the first hit [m], or kNoHit
+    glm::vec3 light;       ///< gathered on the way and at the end, without further bounces [lx]
+};
+
+/// Links of some lumels, each with a run of slots.
+struct LinkBlock {
+    std::vector<std::uint16_t> rays;  ///< [lumels]
+    std::vector<LinkEnd> ends;        ///< [slots]
+    std::vector<std::uint8_t> from;   ///< cells that the rays of cut lumels leave, in order
+    std::vector<NearLink> near;       ///< by slot
+
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(rays, ends, from, near);
+    }
+};
+
+/// Lumels per block.
+inline constexpr std::size_t kLinkBlock = 256;
+
+/// Links of one lumel in one round.
+struct LinkRow {
+    std::uint32_t first_slot;
+    std::span<const LinkEnd> ends;
+    const std::uint8_t* from;  ///< [ends] cells, or null for lumels that are not cut
+    std::span<const NearLink> near;
+
+    /// Number of the sub-lumel, in its lumel, that ray k leaves.
+    std::uint32_t leaves(const SubLumels& parts, std::size_t lumel, std::size_t k) const
+    {
+        return from ? parts.part(lumel, from[k]) - parts.first(lumel) : 0;
+    }
+};
+
+/// Iterates over the rows of a block.
+class LinkRows {
+public:
+    explicit LinkRows(const LinkBlock& block) : block_(&block) {}
+
+    LinkRow next(bool is_cut)
+    {
+        const std::size_t rays = block_->rays[lumel_++];
+        LinkRow row{slot_, {block_->ends.data() + slot_, rays}, nullptr, {}};
+        if (is_cut) {
+            row.from = block_->from.data() + from_;
+            from_ += std::uint32_t(rays);
+        }
+        slot_ += std::uint32_t(rays);
+        const std::uint32_t first = near_;
+        while (near_ < block_->near.size() && block_->near[near_].slot < slot_)
+            ++near_;
+        row.near = {block_->near.data() + first, near_ - first};
+        return row;
+    }
+
+private:
+    const LinkBlock* block_;
+    std::uint32_t lumel_ = 0, slot_ = 0, from_ = 0, near_ = 0;
+};
+
+/// Links of one of several independent solutions.
+struct LinkTable {
+    explicit LinkTable(std::size_t parts) : sky(parts, glm::vec3(0.0f)) {}
+
+    std::vector<std::vector<LinkBlock>> rounds;  ///< [rounds][blocks]
+    std::vector<glm::vec3> sky;  ///< [P] Σ over rays that meet the sky of its light [lx]
+
+    /// Memory of links [bytes].
+    std::size_t bytes() const;
+    /// True if all indices are those of `lumels` in blocks, of sub-lumels and of numbers.
+    bool fits(const std::vector<std::uint32_t>& order, const SubLumels& parts,
+              const LinkNumbers& numbers) const;
+
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(rounds, sky);
+    }
+};
+
+}  // namespace lumel

@@ -1,0 +1,107 @@
+#include "links/trace/source_term.h"
+
+#include <algorithm>
+
+#include "base/core/parallel.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels, and blocks of links, per task.
+constexpr std::size_t kSourcesPerTask = 4096, kSourceBlocksPerTask = 4;
+
+/// Calls visit(row, lumel) for all rows, in parallel; rows of one lumel one after another.
+template <class Visit>
+void for_each_row(const LinkWork& work, const SubLumels& parts, const LinkTable& links,
+                  const Visit& visit)
+{
+    const std::size_t blocks = (work.order.size() + kLinkBlock - 1) / kLinkBlock;
+    parallel_for(blocks, kSourceBlocksPerTask, [&](std::size_t from, std::size_t to) {
+        for (std::size_t b = from; b < to; ++b)
+            for (const std::vector<LinkBlock>& round : links.rounds) {
+                LinkRows rows(round[b]);
+                const std::size_t end = std::min((b + 1) * kLinkBlock, work.order.size());
+                for (std::size_t o = b * kLinkBlock; o < end; ++o)
+                    visit(rows.next(parts.is_cut(work.order[o])), work.order[o]);
+            }
+    });
+}
+
+}  // namespace
+
+ReflectedLight::ReflectedLight(const LinkWork& work, const SubLumels& parts,
+                               const LinkNumbers& numbers, const DirectEstimator& direct)
+    : work_(work),
+      parts_(parts),
+      numbers_(numbers),
+      direct_(direct),
+      of_number_(numbers.count(), glm::vec4(0.0f))
+{
+    parallel_for(work.lumels().size(), kSourcesPerTask, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const glm::vec4 light(work.lumels()[i].albedo * direct.mean(i),
+                                  direct.varies(i) ? kVaries : 0.0f);
+            std::fill(of_number_.begin() + numbers.of_part(parts.first(i)),
+                      of_number_.begin() + numbers.of_part(parts.end(i)), light);
+        }
+    });
+}
+
+glm::vec3 ReflectedLight::of_cell(LinkEnd end) const
+{
+    const std::uint32_t lumel = parts_.lumel(numbers_.part(end.number()));
+    return work_.lumels()[lumel].albedo * direct_.at(lumel, end.cell());
+}
+
+SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
+                            const LinkNumbers& numbers, const ReflectedLight& reflected,
+                            const LinkTable& links)
+{
+    SourceTerm sum{std::vector<glm::vec3>(parts.count(), glm::vec3(0.0f)),
+                   std::vector<std::uint32_t>(parts.count(), 0)};
+    std::vector<char> loses(work.order.size(), 0);
+    for_each_row(work, parts, links, [&](const LinkRow& row, std::uint32_t i) {
+        const std::uint32_t first = parts.first(i);
+        auto near = row.near.begin();
+        for (std::size_t k = 0; k < row.ends.size(); ++k) {
+            const std::uint32_t part = first + row.leaves(parts, i, k);
+            LinkEnd end = row.ends[k];
+            glm::vec3 light;
+            if (end.number() == LinkNumbers::kNear) {
+                end = near->end;
+                light = near++->light;
+            } else {
+                light = reflected.at(end);
+            }
+            if (!numbers.is_part(end.number()))
+                loses[i] = 1;
+            if (numbers.is_lost(end.number()))
+                continue;
+            ++sum.rays[part];
+            sum.light[part] += light;
+        }
+    });
+    for (std::size_t p = 0; p < sum.light.size(); ++p)
+        sum.light[p] += links.sky[p];
+    sum.is_closed = std::none_of(loses.begin(), loses.end(), [](char one) { return one != 0; });
+    return sum;
+}
+
+/// Bounded by the lumels that were hit, for those far away.
+void lower_to_hits(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
+                   const LinkTable& links, std::vector<float>& nearest)
+{
+    for_each_row(work, parts, links, [&](const LinkRow& row, std::uint32_t i) {
+        for (const LinkEnd end : row.ends)
+            if (numbers.is_part(end.number())) {
+                const WorldLumel& hit = work.world[parts.lumel(numbers.part(end.number()))];
+                nearest[i] = std::min(
+                    nearest[i], glm::distance(work.world[i].centre, hit.centre) - hit.size);
+            }
+        for (const NearLink& near : row.near)
+            nearest[i] = std::min(nearest[i], near.distance);
+        nearest[i] = std::max(nearest[i], 0.0f);
+    });
+}
+
+}  // namespace lumel

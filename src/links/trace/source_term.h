@@ -1,0 +1,53 @@
+#pragma once
+// The source term of the equation that sweeps solve: light at the ends of links, without further
+// bounces.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "links/direct/direct.h"
+#include "links/trace/link_table.h"
+
+namespace lumel {
+
+struct SourceTerm {
+    std::vector<glm::vec3> light;     ///< [P] Σ over rays of reflected direct light, and sky [lx]
+    std::vector<std::uint32_t> rays;  ///< [P] rays that count
+    bool is_closed = false;           ///< all rays hit reflecting surfaces
+};
+
+/// Direct light that each number of a link's end reflects [lm/m²].
+class ReflectedLight {
+public:
+    ReflectedLight(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
+                   const DirectEstimator& direct);
+
+    glm::vec3 at(LinkEnd end) const
+    {
+        const glm::vec4& light = of_number_[end.number()];
+        return light.w == kVaries ? of_cell(end) : glm::vec3(light);
+    }
+
+private:
+    static constexpr float kVaries = 1.0f;
+
+    glm::vec3 of_cell(LinkEnd end) const;
+
+    const LinkWork& work_;
+    const SubLumels& parts_;
+    const LinkNumbers& numbers_;
+    const DirectEstimator& direct_;
+    std::vector<glm::vec4> of_number_;  ///< [numbers] w: kVaries if cells differ
+};
+
+SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
+                            const LinkNumbers& numbers, const ReflectedLight& reflected,
+                            const LinkTable& links);
+
+/// nearest [N]: lowered to about the distance of the nearest hit of each lumel's rays [m].
+void lower_to_hits(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
+                   const LinkTable& links, std::vector<float>& nearest);
+
+}  // namespace lumel
