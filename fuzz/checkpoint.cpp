@@ -1,7 +1,7 @@
 #include <sstream>
 
 #include "base/core/state_bytes.h"
-#include "links/trace/tracer.h"
+#include "links/trace/link_table.h"
 #include "readers.h"
 #include "results/record/report.h"
 
@@ -15,9 +15,9 @@ void read_checkpoint(Input input)
     std::string version, scene;
     double seconds = 0.0;
     std::vector<ConvergencePoint> curve;
-    LinkSet gathered(0);
+    LinkTable links(0);
     std::map<std::string, double> times;
-    reader(version, scene, seconds, curve, gathered, times);
+    reader(version, scene, seconds, curve, links, times);
     reader.finish();
 }
 

@@ -39,6 +39,16 @@ public:
         return std::uint32_t(y * kCellSide + x);
     }
 
+    /// Centre of a cell in the plane of lumel i through a point [m].
+    glm::vec3 centre(std::size_t i, const glm::vec3& point, std::uint32_t cell) const
+    {
+        const Grid& grid = grids_[i];
+        const float x = float(cell % kCellSide) + 0.5f - grid.x0 - glm::dot(grid.x, point);
+        const float y = float(cell / kCellSide) + 0.5f - grid.y0 - glm::dot(grid.y, point);
+        return point + grid.x * (x / glm::dot(grid.x, grid.x)) +
+               grid.y * (y / glm::dot(grid.y, grid.y));
+    }
+
 private:
     /// dot(x, position) + x0 counts cells along the first side.
     struct Grid {

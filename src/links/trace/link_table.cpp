@@ -32,7 +32,8 @@ bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const S
     }
     for (const LinkEnd end : block.ends)
         near += end.number() == LinkNumbers::kNear ? 1 : 0;
-    return near == block.near.size() && std::all_of(block.ends.begin(), block.ends.end(), is_known) &&
+    return near == block.near.size() &&
+           std::all_of(block.ends.begin(), block.ends.end(), is_known) &&
            std::all_of(block.from.begin(), block.from.end(),
                        [](std::uint8_t cell) { return cell < kCells; });
 }

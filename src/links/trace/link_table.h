@@ -59,7 +59,11 @@ private:
     std::uint32_t first_part_, count_;
 };
 
-/// A ray that was reflected within a short distance, or crossed glass.
+/// A first hit closer than this many sides of the larger lumel is reflected: near corners indirect
+/// light changes within a lumel, but is stored per sub-lumel only.
+inline constexpr float kNearSides = 2.0f;
+
+/// A ray whose first hit is near, or that crossed glass.
 struct NearLink {
     static constexpr float kNoHit = std::numeric_limits<float>::max();
 

@@ -87,20 +87,24 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
     return sum;
 }
 
-/// Bounded by the lumels that were hit, for those far away.
+/// Of far hits, the distance between the lumels: off by a side at most, where hits are kNearSides
+/// away or more.
 void lower_to_hits(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
                    const LinkTable& links, std::vector<float>& nearest)
 {
     for_each_row(work, parts, links, [&](const LinkRow& row, std::uint32_t i) {
+        const WorldLumel& lumel = work.world[i];
         for (const LinkEnd end : row.ends)
             if (numbers.is_part(end.number())) {
-                const WorldLumel& hit = work.world[parts.lumel(numbers.part(end.number()))];
-                nearest[i] = std::min(
-                    nearest[i], glm::distance(work.world[i].centre, hit.centre) - hit.size);
+                const std::uint32_t j = parts.lumel(numbers.part(end.number()));
+                const float away =
+                    std::max(glm::distance(lumel.centre,
+                                           work.cells.centre(j, work.world[j].centre, end.cell())),
+                             kNearSides * std::max(lumel.size, work.world[j].size));
+                nearest[i] = std::min(nearest[i], away);
             }
         for (const NearLink& near : row.near)
             nearest[i] = std::min(nearest[i], near.distance);
-        nearest[i] = std::max(nearest[i], 0.0f);
     });
 }
 

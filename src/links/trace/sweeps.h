@@ -15,9 +15,9 @@ namespace lumel {
 ///
 ///     X_p = (1/n_p) Σ_k (C_pk + w_pk ρ X[target_pk]),
 ///
-/// where C is direct and sky light at the ends of the rays and w the weight of a link. Jacobi sweeps until
-/// converged; if they are slow, as in bright closed rooms, with a coarse correction by groups of
-/// sub-lumels that face the same way in one cell of the scene.
+/// where C is direct and sky light at the ends of the rays and w the weight of a link. Jacobi
+/// sweeps until converged; if they are slow, as in bright closed rooms, with a coarse correction by
+/// groups of sub-lumels that face the same way in one cell of the scene.
 class LinkSolver {
 public:
     /// All arguments must outlive this.

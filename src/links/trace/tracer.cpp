@@ -20,10 +20,9 @@ constexpr float kFar = std::numeric_limits<float>::max();
 /// A hit closer than this many sides of the larger lumel is reflected again, with shadow rays at
 /// the hit: neither cells nor sub-lumels resolve such small distances.
 constexpr float kTooNear = 0.25f;
-/// A first hit closer than kNear is reflected too: near corners indirect light changes within a
-/// lumel, but is stored per sub-lumel only. It gets shadow rays if closer than kNearForCells, or if
-/// direct light varies within the lumel; otherwise the lumel's has less noise.
-constexpr float kNear = 2.0f, kNearForCells = 1.0f;
+/// A first hit closer than kNearSides gets shadow rays if it is closer than this, or if direct
+/// light varies within the lumel; otherwise the lumel's has less noise.
+constexpr float kNearForCells = 1.0f;
 /// Hits closer than this many sides can be on a sliver that the lumel's cells do not represent, as
 /// in a gap between two walls: light is looked up in a cell visible from the hit, or not at all.
 constexpr float kMayBeHidden = 1.0f;
@@ -51,17 +50,17 @@ struct LinkTracer::Landing {
 struct LinkTracer::Path {
     PathSamples samples;
     std::uint32_t slot;
-    float size;          ///< size of the last lumel on the path [m]
-    glm::vec3 weight;    ///< that remains
-    float distance;      ///< to the first hit [m], or NearLink::kNoHit
-    LinkEnd end;         ///< once it ended
+    float size;               ///< size of the last lumel on the path [m]
+    glm::vec3 weight;         ///< that remains
+    float distance;           ///< to the first hit [m], or NearLink::kNoHit
+    LinkEnd end;              ///< once it ended
     glm::vec3 light{0.0f};    ///< gathered [lx]
     bool is_straight = true;  ///< not reflected
 };
 
 /// A path's hit on a lumel.
 struct LinkTracer::PathHit {
-    std::uint32_t ray;   ///< of the batch
+    std::uint32_t ray;  ///< of the batch
     std::uint32_t path;
     std::uint32_t lumel, cell;
     glm::vec3 position;              ///< [m]
@@ -240,25 +239,24 @@ void LinkTracer::meet_first(RayBatch& wave) const
         const Landing at = land(ray, hit, size);
         const bool is_lumel = at.lumel != kNoLumel;
         if (hit.tint == glm::vec3(1.0f)) {
-            if (!is_lumel) {
-                wave.ends[slot] = LinkEnd::of(at.end);
-                if (at.end == LinkNumbers::kSky)
+            if (is_lumel ? at.sides >= kNearSides && !parts_.is_cut(at.lumel)
+                         : hit.distance >= kNearSides * size) {
+                wave.ends[slot] =
+                    is_lumel ? LinkEnd::of(numbers_.of_part(parts_.first(at.lumel)), at.cell)
+                             : LinkEnd::of(at.end);
+                if (!is_lumel && at.end == LinkNumbers::kSky)
                     wave.sky.push_back({slot, kPi * work_.sources.dim_sky(ray.direction)});
-                continue;
-            }
-            if (at.sides >= kNear && !parts_.is_cut(at.lumel)) {
-                wave.ends[slot] = LinkEnd::of(numbers_.of_part(parts_.first(at.lumel)), at.cell);
                 continue;
             }
         }
         const auto path = std::uint32_t(wave.paths.size());
-        wave.paths.push_back({.samples = {wave.streams[n], slot - wave.slots_before[n]},
-                              .slot = slot,
-                              .size = size,
-                              .weight = hit.tint,
-                              .distance = at.end == LinkNumbers::kSky ? NearLink::kNoHit
-                                                                      : hit.distance,
-                              .end = LinkEnd::of(at.end)});
+        wave.paths.push_back(
+            {.samples = {wave.streams[n], slot - wave.slots_before[n]},
+             .slot = slot,
+             .size = size,
+             .weight = hit.tint,
+             .distance = at.end == LinkNumbers::kSky ? NearLink::kNoHit : hit.distance,
+             .end = LinkEnd::of(at.end)});
         if (is_lumel)
             wave.arrivals.push_back(
                 {.ray = r,
@@ -267,9 +265,8 @@ void LinkTracer::meet_first(RayBatch& wave) const
                  .cell = at.cell,
                  .position = at.position,
                  .may_be_hidden = parts_.is_cut(at.lumel) || at.sides < kMayBeHidden,
-                 .looks_around =
-                     at.sides < (direct_.varies(at.lumel) ? kNear : kNearForCells),
-                 .goes_on = at.sides < kNear});
+                 .looks_around = at.sides < (direct_.varies(at.lumel) ? kNearSides : kNearForCells),
+                 .goes_on = at.sides < kNearSides});
         else if (at.end == LinkNumbers::kSky)
             wave.paths.back().light = hit.tint * kPi * work_.sources.dim_sky(ray.direction);
     }
@@ -291,15 +288,15 @@ void LinkTracer::meet(RayBatch& wave, int reflections) const
             continue;
         }
         const bool is_near = reflections < kMaxReflections && at.sides < kTooNear;
-        wave.arrivals.push_back({.ray = r,
-                                 .path = wave.of[r],
-                                 .lumel = at.lumel,
-                                 .cell = at.cell,
-                                 .position = at.position,
-                                 .may_be_hidden = parts_.is_cut(at.lumel) ||
-                                                  at.sides < kMayBeHidden,
-                                 .looks_around = is_near,
-                                 .goes_on = is_near});
+        wave.arrivals.push_back(
+            {.ray = r,
+             .path = wave.of[r],
+             .lumel = at.lumel,
+             .cell = at.cell,
+             .position = at.position,
+             .may_be_hidden = parts_.is_cut(at.lumel) || at.sides < kMayBeHidden,
+             .looks_around = is_near,
+             .goes_on = is_near});
     }
 }
 
@@ -425,7 +422,8 @@ RaySpan LinkTracer::reflect(const RayBatch& wave, const PathHit& arrival, int re
 void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
 {
     for (const Path& path : wave.paths)
-        wave.ends[path.slot] = path.is_straight && path.weight == glm::vec3(1.0f)
+        wave.ends[path.slot] = path.is_straight && path.weight == glm::vec3(1.0f) &&
+                                       numbers_.is_part(path.end.number())
                                    ? path.end
                                    : LinkEnd::of(LinkNumbers::kNear);
     auto sky = wave.sky.begin();
@@ -445,8 +443,7 @@ void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
         for (; sky != wave.sky.end() && sky->slot < end; ++sky)
             into.sky[parts_.part(i, wave.from[sky->slot])] += sky->light;
         if (parts_.is_cut(i))
-            block.from.insert(block.from.end(), wave.from.begin() + begin,
-                              wave.from.begin() + end);
+            block.from.insert(block.from.end(), wave.from.begin() + begin, wave.from.begin() + end);
         block.rays.push_back(std::uint16_t(end - begin));
         block.ends.insert(block.ends.end(), wave.ends.begin() + begin, wave.ends.begin() + end);
     }

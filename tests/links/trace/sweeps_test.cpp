@@ -8,6 +8,7 @@
 #include "../../support/source_folder.h"
 #include "atlas/cells/order.h"
 #include "links/trace/sweeps.h"
+#include "links/trace/tracer.h"
 #include "rays/cast/ray_caster.h"
 
 namespace lumel {
@@ -78,8 +79,7 @@ std::vector<Link> links_of(const TracedRoom& room)
                     const std::uint32_t from = room.parts.part(lumel, cell);
                     const std::vector<NearLink>& by_slot = round[b].near;
                     if (near < by_slot.size() && by_slot[near].slot == slot) {
-                        add(from, by_slot[near].end,
-                            glm::unpackF3x9_E1x5(by_slot[near].weight));
+                        add(from, by_slot[near].end, glm::unpackF3x9_E1x5(by_slot[near].weight));
                         ++near;
                     } else {
                         add(from, round[b].ends[slot], glm::dvec3(1.0));
