@@ -1,7 +1,7 @@
 #include <sstream>
 
 #include "base/core/state_bytes.h"
-#include "links/trace/link_table.h"
+#include "links/kept/link_table.h"
 #include "readers.h"
 #include "results/record/report.h"
 

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "base/core/error.h"
-#include "links/live/link_relighter.h"
 #include "method_options.h"
 #include "option_values.h"
 #include "shared_options.h"
@@ -25,21 +24,23 @@ void add_resume_options(Command& command, BakeOptions& options)
                               between(0.0, kMaxCheckpointSeconds)}});
 }
 
-/// Links to store.
+/// How many links, and whether to store them.
 struct GivenLinks {
     bool keep = false;
-    std::uint32_t rays = KeptLightOptions{}.rays;  ///< per lumel
+    std::uint32_t rays = 0;  ///< per lumel, 0: not given
 };
 
-void add_keep_links_options(Command& command, GivenLinks& links)
+void add_links_options(Command& command, GivenLinks& links)
 {
     command.add(kMethodGroup,
                 {{"--keep-links", "",
-                  "Trace a fixed number of rays per lumel and store them in scene.lumellinks, from "
-                  "which lumel relight and lumel update work at full resolution (only links)",
+                  "Store the rays' hits in scene.lumellinks, from which lumel relight and lumel "
+                  "update work at full resolution (only links)",
                   &links.keep},
-                 {"--links", "N", "With --keep-links, rays stored per lumel: 4, 16, 64 or 256",
-                  &links.rays, text_of(links.rays), link_rays()}});
+                 {"--links", "N",
+                  "Trace N rays from each lumel at once, in place of as many as the error needs: "
+                  "a multiple of 3, best 3 times a power of two (only links)",
+                  &links.rays, "as the error needs", even_rays()}});
 }
 
 void add_file_options(Command& command, BakeArguments& bake)
@@ -56,20 +57,21 @@ void add_file_options(Command& command, BakeArguments& bake)
           &bake.page}});
 }
 
-/// Rays per lumel to store, 0: none. Throws Error{input} for options that stored links do not read.
-std::uint32_t kept_rays(const Command& command, const GivenLinks& links)
+/// Throws Error{input} for options that the number of links excludes.
+void set_links(const Command& command, const GivenLinks& links, BakeOptions& options)
 {
-    if (!links.keep) {
-        if (command.given("--links"))
-            throw Error(ErrorKind::input, "--links", "is read with --keep-links only");
-        return 0;
-    }
+    options.keep_links = links.keep;
+    if (!command.given("--links"))
+        return;
+    auto* method = std::get_if<LinksOptions>(&options.solver.method);
+    if (!method)
+        throw Error(ErrorKind::input, "--links", "is read by --solver links only");
     for (const char* option : {"--error", "--dark-error", "--shots", "--time"})
         if (command.given(option))
             throw Error(ErrorKind::input, option,
-                        "is not read with --keep-links, which traces the same number of rays from "
-                        "each lumel; choose it with --links");
-    return links.rays;
+                        "is not read with --links, which says how many rays are traced");
+    method->even_rays = links.rays;
+    options.solver.target_error = 0.0;
 }
 
 }  // namespace
@@ -87,7 +89,7 @@ Command bake_command()
     add_atlas_options(command, options.atlas);
     add_sides_option(command, options.atlas);
     add_methods(command, *method);
-    add_keep_links_options(command, *links);
+    add_links_options(command, *links);
     add_stop_options(command, options.solver);
     add_resume_options(command, options);
     add_device_option(command, options.device);
@@ -104,7 +106,7 @@ Command bake_command()
         drop_default_error(parsed, given->options.solver);
         given->options.solver.method = method->options();
         check_limits(given->options.solver);
-        given->options.keep_links = kept_rays(parsed, *links);
+        set_links(parsed, *links, given->options);
         return {*given};
     };
     return command;

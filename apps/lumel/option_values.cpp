@@ -91,6 +91,17 @@ Check link_rays()
     };
 }
 
+Check even_rays()
+{
+    constexpr std::int64_t kMost = 3 * 4096;
+    return [](const std::string& text) -> std::string {
+        const std::string wrong = whole(3, kMost)(text);
+        return !wrong.empty() || std::stoll(text) % 3 == 0
+                   ? wrong
+                   : fmt::format("'{}' is not a multiple of 3", text);
+    };
+}
+
 Check between(double low, double high)
 {
     return [low, high](const std::string& text) -> std::string {

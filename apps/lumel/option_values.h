@@ -21,6 +21,8 @@ Check positive();
 
 /// Accepts the numbers of rays that lumels can keep as links: 4, 16, 64 and 256.
 Check link_rays();
+/// A number of rays that three solutions share evenly.
+Check even_rays();
 
 /// Accepts finite numbers from `low` to `high`.
 Check between(double low, double high);

@@ -28,7 +28,7 @@ bool solve(Solver& solver, const SolverOptions& options,
             met(state.error, options.target_error) &&
             met(state.dark_error, options.target_dark_error))
             return true;
-        if (state.full)
+        if (state.full || state.ended)
             return true;
         solver.step();
     }

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "atlas/cells/ray_origins.h"
 #include "base/core/parallel.h"
 #include "rays/paths/samples.h"
 
@@ -135,7 +136,8 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
                 continue;
             const CellPoints points = cell_points(world, cells, i);
             const float ray_offset = std::max(kAboveCell * world[i].size, rays.ray_offset());
-            const std::uint32_t own = PathSamples::hash(seed, std::uint32_t(i));
+            const std::uint32_t own = PathSamples::hash(
+                seed, lumel_key(lumels.lumels[i], std::uint32_t(lumels.width)));
             Joined joined;
             join_along(points, 1, 0, ray_offset, rays, own, joined);
             join_along(points, 0, 1, ray_offset, rays, own, joined);

@@ -1,6 +1,14 @@
 #include "atlas/cells/ray_origins.h"
 
+#include "rays/paths/samples.h"
+
 namespace lumel {
+
+std::uint32_t lumel_key(const Lumel& lumel, std::uint32_t width)
+{
+    const std::uint32_t x = lumel.texel % width, y = lumel.texel / width;
+    return PathSamples::hash(PathSamples::hash(x, y), lumel.flags & kLumelBack ? 1u : 0u);
+}
 
 RayOrigin RayOrigins::start(std::size_t i, const glm::vec2& at) const
 {

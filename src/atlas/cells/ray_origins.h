@@ -26,6 +26,10 @@ inline RayOrigin origin_at(const glm::vec3& position, const glm::vec3& normal)
     return {.position = position, .normal = normal, .geometric = normal, .cell = 0};
 }
 
+/// Seeds a lumel's random numbers by its place in an atlas of that width: its index changes when
+/// objects are added or removed.
+std::uint32_t lumel_key(const Lumel& lumel, std::uint32_t width);
+
 class RayOrigins {
 public:
     /// Pointers must outlive this. centre: all rays start at the lumel's centre. Without cells, all

@@ -71,9 +71,8 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =
-        options.keep_links > 0         ? solve_over_kept_links(setting, options, stages)
-        : keeps_sources_apart(options) ? solve_sources(device, setting, options, stages)
-                                       : solve_light(device, setting, options, stages, &checkpoint);
+        keeps_sources_apart(options) ? solve_sources(device, setting, options, stages)
+                                     : solve_light(device, setting, options, stages, &checkpoint);
     const SolverState solved = solution->solver->state();
     SolveRun& run = solution->run;
     if (dump) {
@@ -114,8 +113,10 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
         output->outdate(kCheckpointFile);
     if (solution->relightable)
         write_relightable(output->path(kMatrixFile), *solution->relightable);
-    if (solution->links)
-        write_links(output->path(kLinksFile), std::move(*solution->links));
+    if (options.keep_links)
+        write_links(output->path(kLinksFile),
+                    dynamic_cast<const LinkRadiosity&>(*solution->solver)
+                        .kept(setting.prepared.scene.hash));
     return write_bake(*output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, stages);
 }

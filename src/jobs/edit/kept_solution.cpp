@@ -2,36 +2,38 @@
 
 #include "atlas/lumels/sides.h"
 #include "base/core/error.h"
+#include "methods/methods.h"
 
 namespace lumel {
+namespace {
+
+/// Target error of light without any limit.
+constexpr double kUsualTarget = 0.02;
+/// Progress at the first estimate.
+constexpr double kFirstLight = 0.9;
+
+bool has_limit(const SolverOptions& solver)
+{
+    return solver.target_error > 0.0 || solver.target_dark_error > 0.0 || solver.max_shots > 0 ||
+           std::get<LinksOptions>(solver.method).even_rays > 0;
+}
+
+}  // namespace
 
 void check_keep_links(const BakeOptions& options)
 {
-    if (options.keep_links == 0)
-        return;
-    const auto refuse = [](const std::string& what, const std::string& why) {
-        throw Error(ErrorKind::input, "--keep-links with " + what, "is not possible: " + why);
-    };
-    const auto* links = std::get_if<LinksOptions>(&options.solver.method);
-    if (!links)
-        refuse("another solver", "only --solver links has links");
-    side_of_rays(options.keep_links);
-    if (options.parts != Parts::all)
-        refuse("--only", "stored links are lit by all light");
-    if (options.resume)
-        refuse("--resume", "it has no checkpoints");
-    if (links->rule == SampleRule::centre)
-        refuse("--sampling centre", "their rays start all over each lumel");
-    if (links->rays == Rays::query || links->rays == Rays::raster)
-        refuse("--rays query or raster", "stored links are traced on the CPU");
+    if (options.keep_links && !std::holds_alternative<LinksOptions>(options.solver.method))
+        throw Error(ErrorKind::input, "--keep-links with another solver",
+                    "is not possible: only --solver links has links");
 }
 
-KeptLightOptions kept_light_options(std::uint32_t rays, const LinksOptions& links)
+void check_links(const StoredLinks& links, const BakeRecord& baked, const std::string& path)
 {
-    KeptLightOptions options{.rays = rays, .seed = links.seed};
-    options.light.seed = links.seed;
-    options.filter = links.filter;
-    return options;
+    if (links.scene_hash != baked.scene_hash || links.shots() != baked.keep_links ||
+        !std::holds_alternative<LinksOptions>(baked.solver.method))
+        throw Error(ErrorKind::input, path,
+                    "belongs to another scene or bake than the one in this folder; bake the scene "
+                    "with --keep-links again");
 }
 
 StoredLinks links_for(const EditedScene& edit, const StoredLinks& before)
@@ -54,38 +56,23 @@ StoredLinks links_for(const EditedScene& edit, const StoredLinks& before)
     return renumbered(before, numbers);
 }
 
-KeptLinksSolver::KeptLinksSolver(const SolveScene& prepared, const KeptLightOptions& options,
-                                 Stages& stages, const StoredLinks* kept)
+std::unique_ptr<LinkRadiosity> lit_over_links(const SolveScene& scene, const BakeRecord& baked,
+                                              const StoredLinks& links, LinkRadiosity::Then then,
+                                              const ProgressCallback& progress)
 {
-    stages.begin("links");
-    light_.emplace(prepared, options, kept, stages.callback());
-    stages.begin("solving");
-    irradiance_ = light_->irradiance(stages.callback());
-}
-
-SolverState KeptLinksSolver::state() const
-{
-    return {.shots = light_->links().rays(),
-            .iterations = std::uint64_t(light_->sweeps()),
-            .error = light_->error().all,
-            .dark_error = light_->error().dark};
-}
-
-std::unique_ptr<Solution> solve_over_kept_links(const Setting& setting, const BakeOptions& options,
-                                                Stages& stages)
-{
-    auto solution = std::make_unique<Solution>();
-    auto solver = std::make_unique<KeptLinksSolver>(
-        setting.prepared,
-        kept_light_options(options.keep_links, std::get<LinksOptions>(options.solver.method)),
-        stages);
-    solution->run.finished = true;
-    const SolverState state = solver->state();
-    solution->run.curve = {{state.shots, stages.stage_seconds(), state.error}};
-    solution->irradiance = solver->irradiance();
-    solution->links = solver->light().kept(setting.prepared.scene.hash);
-    solution->solver = std::move(solver);
-    return solution;
+    SolverOptions options = baked.solver;
+    options.max_seconds = 0.0;
+    if (!has_limit(options))
+        options.target_error = baked.error > 0.0 ? baked.error : kUsualTarget;
+    auto solver = std::make_unique<LinkRadiosity>(scene, std::get<LinksOptions>(options.method),
+                                                  options.limits(), baked.parts);
+    if (!links.rounds.empty())
+        solver->use(links, then);
+    solve(*solver, options, [&](const SolverState& state) {
+        notify(progress, state.shots > 0 ? kFirstLight : kFirstLight * state.begun);
+        return true;
+    });
+    return solver;
 }
 
 }  // namespace lumel

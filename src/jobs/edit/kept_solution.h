@@ -2,50 +2,26 @@
 // Bakes with links stored for later runs.
 
 #include <memory>
-#include <optional>
 
 #include "jobs/edit/edited_scene.h"
-#include "jobs/solve/lighting.h"
-#include "links/live/link_relighter.h"
-#include "solve/solver/solver.h"
+#include "jobs/solve/bake_options.h"
+#include "links/trace/links.h"
 
 namespace lumel {
 
-/// Throws Error{input} if the bake's options cannot be met with stored links.
+/// Throws Error{input} if the bake has no links to keep.
 void check_keep_links(const BakeOptions& options);
 
-/// Options for tracing and lighting `rays` links per lumel.
-KeptLightOptions kept_light_options(std::uint32_t rays, const LinksOptions& links);
+/// Throws Error{input} unless the links, of file `path`, are those of the bake.
+void check_links(const StoredLinks& links, const BakeRecord& baked, const std::string& path);
 
 /// Stored links renumbered for the scene after an edit.
 StoredLinks links_for(const EditedScene& edit, const StoredLinks& before);
 
-/// Light over stored links, with the interface of a finished method.
-class KeptLinksSolver final : public Solver {
-public:
-    /// Traces links, or reuses valid ones of `kept`, in the stage "links", and lights them in the
-    /// stage "solving". All arguments must outlive this. Throws Error{stopped} if the caller stops
-    /// it.
-    KeptLinksSolver(const SolveScene& prepared, const KeptLightOptions& options, Stages& stages,
-                    const StoredLinks* kept = nullptr);
-
-    void step() override {}
-    SolverState state() const override;
-    std::vector<glm::vec3> irradiance() override { return irradiance_; }
-    const gpu::StageTimes& times() const override { return times_; }
-    double longest_submission() const override { return 0.0; }
-    std::string rays() const override { return "host"; }
-
-    const LinkRelighter& light() const { return *light_; }
-
-private:
-    std::optional<LinkRelighter> light_;
-    std::vector<glm::vec3> irradiance_;  ///< [N] [lx]
-    gpu::StageTimes times_;              ///< none: runs on the CPU
-};
-
-/// Solves with options.keep_links rays per lumel, and stores the links in Solution::links.
-std::unique_ptr<Solution> solve_over_kept_links(const Setting& setting, const BakeOptions& options,
-                                                Stages& stages);
+/// Light of a scene over stored links, found as that of their bake, to the same target error. All
+/// arguments but the progress must outlive the result.
+std::unique_ptr<LinkRadiosity> lit_over_links(const SolveScene& scene, const BakeRecord& baked,
+                                              const StoredLinks& links, LinkRadiosity::Then then,
+                                              const ProgressCallback& progress);
 
 }  // namespace lumel

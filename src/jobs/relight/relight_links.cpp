@@ -34,26 +34,22 @@ Baked read(const std::string& folder)
     BakeRecord record = read_bake_record(folder);
     check_light_files(record.lights);
     StoredLinks links = read_links(path);
-    const bool is_links = std::holds_alternative<LinksOptions>(record.solver.method);
-    if (links.scene_hash != record.scene_hash || links.rays != record.keep_links || !is_links)
-        throw Error(ErrorKind::input, path,
-                    "belongs to another scene or bake than the one in this folder; bake the scene "
-                    "with --keep-links again");
+    check_links(links, record, path);
     Scene scene =
         read_scene((fs::path(folder) / kSceneFile).string(), MaterialModel::diffuse, record.lights);
     scene.hash = record.scene_hash;  // its vertices are split, its light is the same
     return {std::move(record), std::move(links), std::move(scene)};
 }
 
-std::string report_of(const RelightSummary& summary, const LinkRelighter& light,
+std::string report_of(const RelightSummary& summary, std::uint64_t traced,
                       const SceneLights& lights, const Baked& baked)
 {
     Json json;
     json["lumel"] = lumel_version();
     json["links"] = {{"scene_hash", baked.record.scene_hash},
                      {"lumels", baked.links.lumels.size()},
-                     {"rays", baked.links.rays},
-                     {"traced_again", light.links().traced().all()},
+                     {"rays", baked.links.shots()},
+                     {"traced_again", traced},
                      {"sources", lights.names()}};
     json["seconds"] = summary.seconds;
     json["states"] = json_of(summary.states);
@@ -82,39 +78,40 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
         {}, progress);
     SceneLights lights(world.scene, world.lumels);
     check_states(states, states_path, [&](const LightState& state) { lights.check(state); });
-    LinkRelighter light(
-        world,
-        kept_light_options(baked.links.rays, std::get<LinksOptions>(baked.record.solver.method)),
-        &baked.links, progress);
     OutputFolder output((fs::path(folder) / "states").string());
 
     stages.begin("states");
     RelightSummary summary;
+    std::uint64_t traced = 0;
     for (std::size_t s = 0; s < states.size(); ++s) {
         const double part = 1.0 / double(states.size()), before = part * double(s);
         if (!stages.progress(before))
             break;
         const double start = wall_seconds();
         lights.set(states[s].light);
-        std::vector<glm::vec3> irradiance;
-        if (!unless_stopped(
-                [&] { irradiance = light.irradiance(part_of(progress, before, before + part)); }))
+        world.surfaces = Surfaces(world.scene);  // with the emission of this state
+        std::unique_ptr<LinkRadiosity> light;
+        if (!unless_stopped([&] {
+                light = lit_over_links(world, baked.record, baked.links, LinkRadiosity::Then::end,
+                                       part_of(progress, before, before + part));
+            }))
             break;
+        traced = light->traced();
         const double found = wall_seconds();
-        const Image map = finish_map(world.scene, world.atlas, world.lumels, irradiance);
+        const Image map = finish_map(world.scene, world.atlas, world.lumels, light->irradiance());
         write_map(output, states[s].name, map, baked.record.half, world, stages);
         summary.states.push_back({.name = states[s].name,
                                   .light = found - start,
                                   .files = wall_seconds() - found,
-                                  .error = light.error().all,
-                                  .dark_error = light.error().dark});
+                                  .error = light->state().error,
+                                  .dark_error = light->state().dark_error});
     }
     stages.end();
     if (!summary.states.empty())
         output.commit();
     summary.seconds = stages.seconds();
     summary.interrupted = stages.stopped();
-    summary.report = report_of(summary, light, lights, baked);
+    summary.report = report_of(summary, traced, lights, baked);
     return summary;
 }
 

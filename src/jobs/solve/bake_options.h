@@ -30,9 +30,7 @@ struct BakeOptions {
     Directional directional = Directional::none;  ///< extra layers of lightmap.exr
     int preview_width = 1280;                     ///< [pixels], 0: no preview
     double probe_spacing = 0.0;  ///< spacing of a grid of light probes [m]; 0: none
-    /// Rays per lumel that are traced and stored for later runs: 4, 16, 64 or 256; 0: as the method
-    /// chooses, none stored.
-    std::uint32_t keep_links = 0;
+    bool keep_links = false;           ///< stores the links for later runs
     std::string dump;                  ///< folder for intermediate images, see dump.h; empty: none
     bool resume = false;               ///< continues from a checkpoint, if there is one
     double checkpoint_seconds = 60.0;  ///< between checkpoints, see Checkpoint; 0: none

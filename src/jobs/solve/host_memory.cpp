@@ -20,10 +20,8 @@ namespace {
 constexpr std::uint64_t kProgramBytes = 98u << 20;
 /// Memory of Mesa's compiler for the preview's shaders, on a CPU device [bytes].
 constexpr std::uint64_t kCompilerBytes = 24u << 20;
-/// Memory per lumel of stored links and of the matrix method, as measured [bytes].
-constexpr std::uint64_t kKeptLumelBytes = 380;
-/// A stored link, with its copy while it is written.
-constexpr std::uint64_t kKeptLinkBytes = 2 * sizeof(std::uint32_t);
+/// Memory per lumel of the matrix method, as measured [bytes].
+constexpr std::uint64_t kMatrixLumelBytes = 380;
 /// Memory per triangle for BVHs and charts, as measured [bytes].
 constexpr std::uint64_t kTreeBytes = 130, kChartedBytes = 90;
 /// A JSON value in memory, and the number of values per written primitive with its accessors.
@@ -109,6 +107,22 @@ std::uint64_t writing_bytes(const Sizes& sizes, std::uint64_t layers)
     return std::max({map, solution, scene, toning, baked});
 }
 
+/// Limit of rays per lumel, 0: none.
+std::uint64_t link_rays(const SolverOptions& solver)
+{
+    const std::uint32_t even = std::get<LinksOptions>(solver.method).even_rays;
+    return even > 0 ? even : solver.max_shots;
+}
+
+/// Copies of all links while they are written: as StoredLinks, packed, and twice in a stream.
+std::uint64_t kept_bytes(const Sizes& sizes, const BakeOptions& options)
+{
+    constexpr std::uint64_t kCopies = 4;
+    return options.keep_links
+               ? kCopies * LinkRadiosity::likely_bytes(sizes.lumels, link_rays(options.solver))
+               : 0;
+}
+
 /// Memory of the largest stage, in addition to permanent data.
 std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool shared)
 {
@@ -122,25 +136,21 @@ std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool
             ? sizes.preview.host + (shared ? sizes.preview.device + kCompilerBytes : 0)
             : 0;
     const std::uint64_t writing = sizes.picture + writing_bytes(sizes, layers);
-    return std::max(solving, maps + std::max({sizes.finish, drawing, writing}));
+    return std::max({solving, maps + std::max({sizes.finish, drawing, writing}),
+                     kept_bytes(sizes, options)});
 }
 
 void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& options)
 {
     const std::uint64_t lumels = sizes.lumels;
     if (const auto* matrix = std::get_if<MatrixOptions>(&options.solver.method))
-        memory.solver = kKeptLumelBytes * lumels +
+        memory.solver = kMatrixLumelBytes * lumels +
                         LumelRowsBuilder::host_bytes(lumels, matrix->transport.patches);
     if (!uses_links(options))
         return;
-    if (options.keep_links > 0) {
-        memory.solver = kKeptLumelBytes * lumels;
-        memory.links = memory.first_links = lumels * options.keep_links * kKeptLinkBytes;
-    } else {
-        memory.solver = LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels);
-        memory.links = LinkRadiosity::likely_bytes(lumels, options.solver.max_shots);
-        memory.first_links = LinkRadiosity::first_bytes(lumels);
-    }
+    memory.solver = LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels);
+    memory.links = LinkRadiosity::likely_bytes(lumels, link_rays(options.solver));
+    memory.first_links = LinkRadiosity::first_bytes(lumels);
 }
 
 /// The sizes that do not depend on the map's side.

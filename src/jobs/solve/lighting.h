@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "jobs/solve/setting.h"
-#include "links/kept/stored_links.h"
 #include "methods/matrix/relightable.h"
 
 namespace lumel {
@@ -41,7 +40,6 @@ struct Solution {
     std::vector<glm::vec3> irradiance;          ///< [N] [lx] of the requested parts
     std::optional<Relightable> relightable;     ///< if sources were kept separate to the end
     std::optional<FormFactorRow> form_factors;  ///< if sources were kept separate
-    std::optional<StoredLinks> links;           ///< if they are stored
 };
 
 /// Solves for options.parts of the light. Direct light of emissive surfaces is the solution without

@@ -113,11 +113,7 @@ std::optional<StoredLinks> kept_links(const std::string& folder, const BakeRecor
         return {};
     const std::string path = (std::filesystem::path(folder) / kLinksFile).string();
     StoredLinks kept = read_links(path);
-    if (kept.scene_hash != baked.scene_hash || kept.rays != baked.keep_links ||
-        !std::holds_alternative<LinksOptions>(baked.solver.method))
-        throw Error(ErrorKind::input, path,
-                    "belongs to another scene than the bake in this folder; bake the scene with "
-                    "--keep-links again");
+    check_links(kept, baked, path);
     return kept;
 }
 
@@ -125,18 +121,20 @@ std::optional<StoredLinks> kept_links(const std::string& folder, const BakeRecor
 std::vector<glm::vec3> light_over_links(const EditedScene& edit, StoredLinks& kept,
                                         BakeRecord& baked, UpdateRow& row, Stages& stages)
 {
-    const auto& links = std::get<LinksOptions>(baked.solver.method);
     const StoredLinks mine = links_for(edit, std::exchange(kept, {}));
-    KeptLinksSolver solver(edit.now, kept_light_options(baked.keep_links, links), stages, &mine);
-    const SolverState state = solver.state();
-    row.rays = solver.light().links().traced().all();
-    row.links = baked.keep_links * std::uint64_t(edit.now.lumels.lumels.size());
+    stages.begin("solving");
+    const std::unique_ptr<LinkRadiosity> solver =
+        lit_over_links(edit.now, baked, mine, LinkRadiosity::Then::add, stages.callback());
+    const SolverState state = solver->state();
+    row.rays = solver->traced();
+    row.links = solver->sent();
     baked.shots = state.shots;
+    baked.keep_links = std::uint32_t(state.shots);
     baked.iterations = state.iterations;
     baked.error = state.error;
     baked.dark_error = state.dark_error;
-    kept = solver.light().kept(edit.now.scene.hash);
-    return solver.irradiance();
+    kept = solver->kept(edit.now.scene.hash);
+    return solver->irradiance();
 }
 
 void check_paths(const std::string& folder, const std::string& scene_path)

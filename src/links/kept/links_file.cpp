@@ -6,8 +6,9 @@
 //     8 bytes   fingerprint of the contents
 //     contents  in the order of contents(), as of StateWriter
 //
-// Links have as many bits as the largest needs, lowest first. Contents with a valid fingerprint are
-// still checked before they are used as indices.
+// Links have as many bits as the largest needs, lowest first, solution by solution in each round.
+// Those to be traced again take as many. Contents with a valid fingerprint are still checked before
+// they are used as indices.
 
 #include "links/kept/links_file.h"
 
@@ -19,6 +20,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "base/core/error.h"
@@ -32,9 +34,11 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
-constexpr std::uint64_t kVersion = 2;      // 1: rays by the number of a lumel
+// 1: rays by the number of a lumel; 2: one number of rays, in a grid of directions
+constexpr std::uint64_t kVersion = 3;
 constexpr std::uint32_t kMaxSide = 65536;  ///< side of an atlas [texels]
 constexpr std::uint32_t kWord = 64;        ///< [bits]
+constexpr std::uint32_t kMaxInterleaved = 64;  ///< side of sets of directions [texels]
 
 struct Head {
     std::array<char, 8> magic = kMagic;
@@ -46,49 +50,66 @@ using Words = std::vector<std::uint64_t>;
 
 std::uint32_t bits_of(const StoredLinks& kept)
 {
-    return std::uint32_t(std::bit_width(kept.ends() - 1));
+    return std::uint32_t(std::bit_width(kept.numbers().count() - 1)) + LinkEnd::kCellBits;
+}
+
+std::uint64_t links_in(const StoredLinks::Round& round)
+{
+    return first_rays(round.rays).back();
 }
 
 std::uint64_t words_for(const StoredLinks& kept)
 {
-    const std::uint64_t bits = kept.lumels.size() * kept.rays * bits_of(kept);
-    return (bits + kWord - 1) / kWord;
+    std::uint64_t links = 0;
+    for (const StoredLinks::Round& round : kept.rounds)
+        links += kSolutions * links_in(round);
+    return (links * bits_of(kept) + kWord - 1) / kWord;
 }
 
 Words packed(const StoredLinks& kept)
 {
     const std::uint32_t bits = bits_of(kept);
     Words words(words_for(kept), 0);
-    for (std::uint64_t k = 0; k < kept.links.size(); ++k) {
-        const std::uint64_t at = k * bits, link = kept.links[k];
-        words[at / kWord] |= link << at % kWord;
-        if (at % kWord + bits > kWord)
-            words[at / kWord + 1] |= link >> (kWord - at % kWord);
-    }
+    std::uint64_t at = 0;
+    for (const StoredLinks::Round& round : kept.rounds)
+        for (const std::vector<LinkEnd>& ends : round.ends)
+            for (const LinkEnd end : ends) {
+                words[at / kWord] |= std::uint64_t(end.bits) << at % kWord;
+                if (at % kWord + bits > kWord)
+                    words[at / kWord + 1] |= std::uint64_t(end.bits) >> (kWord - at % kWord);
+                at += bits;
+            }
     return words;
 }
 
-std::vector<std::uint32_t> unpacked(const Words& words, const StoredLinks& kept)
+/// Returns false if a link has no valid number.
+bool unpack(const Words& words, StoredLinks& kept)
 {
-    const std::uint32_t bits = bits_of(kept);
+    const std::uint32_t bits = bits_of(kept), numbers = kept.numbers().count();
     const std::uint64_t mask = (std::uint64_t(1) << bits) - 1;
-    std::vector<std::uint32_t> links(kept.lumels.size() * kept.rays);
-    for (std::uint64_t k = 0; k < links.size(); ++k) {
-        const std::uint64_t at = k * bits;
-        std::uint64_t link = words[at / kWord] >> at % kWord;
-        if (at % kWord + bits > kWord)
-            link |= words[at / kWord + 1] << (kWord - at % kWord);
-        links[k] = std::uint32_t(link & mask);
-    }
-    return links;
+    std::uint64_t at = 0;
+    for (StoredLinks::Round& round : kept.rounds)
+        for (std::vector<LinkEnd>& ends : round.ends) {
+            ends.resize(links_in(round));
+            for (LinkEnd& end : ends) {
+                std::uint64_t link = words[at / kWord] >> at % kWord;
+                if (at % kWord + bits > kWord)
+                    link |= words[at / kWord + 1] << (kWord - at % kWord);
+                end.bits = std::uint32_t(link & mask);
+                if (end.number() >= numbers)
+                    return false;
+                at += bits;
+            }
+        }
+    return true;
 }
 
 template <class Archive>
 void contents(Archive& archive, StoredLinks& kept, Words& links)
 {
-    archive(kept.scene_hash, kept.rays, kept.seed, kept.ray_offset, kept.side,
+    archive(kept.scene_hash, kept.seed, kept.interleaved, kept.ray_offset, kept.side,
             kept.texels_per_metre, kept.charts, kept.shows_front, kept.back_shift, kept.sheets,
-            kept.instances, kept.lumels, links);
+            kept.instances, kept.boxes, kept.lumels, kept.rounds, links);
 }
 
 bool is_in(const glm::vec2& place, std::uint32_t side)
@@ -105,6 +126,13 @@ bool is_sound(const StoredLinks::StoredTexcoords& sheet, const StoredLinks& kept
            std::all_of(sheet.chart.begin(), sheet.chart.end(), has_number);
 }
 
+/// Box coordinates may be anything: they are compared only.
+bool is_sound(const StoredLinks::Round& round, const StoredLinks& kept)
+{
+    return round.rays.size() == kept.lumels.size() && round.mean >= 0.0 &&
+           round.mean <= double(std::numeric_limits<std::uint16_t>::max());
+}
+
 /// True if numbers are in range and the number of links is right.
 bool is_sound(const StoredLinks& kept, const Words& links)
 {
@@ -115,9 +143,13 @@ bool is_sound(const StoredLinks& kept, const Words& links)
         return std::max(std::abs(std::int64_t(shift.x)), std::abs(std::int64_t(shift.y))) <=
                std::int64_t(kept.side);
     };
-    return is_grid(kept.rays) && kept.ray_offset > 0.0f && std::isfinite(kept.ray_offset) &&
-           kept.side > 0 && kept.side <= kMaxSide && std::isfinite(kept.texels_per_metre) &&
-           kept.charts <= triangles && kept.ends() <= ~std::uint32_t(0) &&
+    return kept.ray_offset > 0.0f && std::isfinite(kept.ray_offset) && kept.side > 0 &&
+           kept.side <= kMaxSide && std::isfinite(kept.texels_per_metre) &&
+           kept.charts <= triangles && kept.interleaved <= kMaxInterleaved &&
+           kept.boxes.size() == kept.instances.size() &&
+           LinkNumbers::fit(kept.instances.size(), kept.lumels.size()) &&
+           std::all_of(kept.rounds.begin(), kept.rounds.end(),
+                       [&](const StoredLinks::Round& round) { return is_sound(round, kept); }) &&
            (kept.back_shift.empty() || kept.back_shift.size() == kept.charts) &&
            std::all_of(kept.back_shift.begin(), kept.back_shift.end(), within) &&
            std::all_of(
@@ -153,7 +185,8 @@ void write_links(const std::string& path, StoredLinks kept)
 {
     std::ostringstream stream;
     Words links = packed(kept);
-    kept.links = {};
+    for (StoredLinks::Round& round : kept.rounds)
+        round.ends = {};
     StateWriter writer(stream);
     contents(writer, kept, links);
     const std::string bytes = std::move(stream).str();
@@ -191,12 +224,7 @@ StoredLinks read_links(const std::string& path)
     } catch (const Error&) {
         fail_damaged(path);
     }
-    if (!is_sound(kept, links))
-        fail_damaged(path);
-    kept.links = unpacked(links, kept);
-    const std::uint64_t ends = kept.ends();
-    if (!std::all_of(kept.links.begin(), kept.links.end(),
-                     [&](std::uint32_t link) { return link < ends; }))
+    if (!is_sound(kept, links) || !unpack(links, kept))
         fail_damaged(path);
     return kept;
 }

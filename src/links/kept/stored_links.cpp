@@ -1,6 +1,6 @@
 #include "links/kept/stored_links.h"
 
-#include <bit>
+#include <cmath>
 
 #include "base/core/error.h"
 
@@ -13,53 +13,90 @@ namespace {
                 "has other surfaces than its stored links; bake the scene again");
 }
 
-/// [ends of kept] New number of each end of a link.
-std::vector<std::uint32_t> ends_now(const StoredLinks& kept, const Renumbering& now,
-                                    std::uint32_t gone)
+constexpr LinkEnd kToTrace{LinkNumbers::kNear << LinkEnd::kCellBits};
+
+/// [numbers of kept] New number of each end of a link.
+std::vector<std::uint32_t> numbers_now(const StoredLinks& kept, const Renumbering& now)
 {
-    constexpr std::uint32_t kFixed = 2;  // the sky, and absorbed
-    std::vector<std::uint32_t> ends = now.lumels;
-    for (std::uint32_t e = 0; e < kFixed; ++e)
-        ends.push_back(std::uint32_t(now.lumels_now) + e);
-    for (const std::uint32_t instance : now.instances)
-        ends.push_back(instance == Renumbering::kNotThere
-                           ? gone
-                           : std::uint32_t(now.lumels_now) + kFixed + instance);
-    for (std::size_t i = 0; i < kept.lumels.size(); ++i)
-        if (ends[i] == Renumbering::kNotThere)
-            ends[i] = gone;
-    return ends;
+    const LinkNumbers before = kept.numbers(), after(now.instances_now, now.lumels_now);
+    std::vector<std::uint32_t> numbers(before.count(), LinkNumbers::kNear);
+    numbers[LinkNumbers::kBelow] = LinkNumbers::kBelow;
+    numbers[LinkNumbers::kSky] = LinkNumbers::kSky;
+    for (std::uint32_t i = 0; i < now.instances.size(); ++i)
+        if (const std::uint32_t to = now.instances[i]; to != Renumbering::kNotThere) {
+            numbers[before.black_on(i)] = after.black_on(to);
+            numbers[before.lost_on(i)] = after.lost_on(to);
+        }
+    for (std::uint32_t i = 0; i < now.lumels.size(); ++i)
+        if (now.lumels[i] != Renumbering::kNotThere)
+            numbers[before.of_part(i)] = after.of_part(now.lumels[i]);
+    return numbers;
+}
+
+StoredLinks::Round renumbered(const StoredLinks::Round& round, const Renumbering& now,
+                              const std::vector<std::uint32_t>& numbers)
+{
+    const auto usual = std::uint16_t(std::lround(round.mean));
+    StoredLinks::Round result{.mean = round.mean,
+                              .rays = std::vector<std::uint16_t>(now.lumels_now, usual)};
+    for (std::size_t i = 0; i < now.lumels.size(); ++i)
+        if (now.lumels[i] != Renumbering::kNotThere)
+            result.rays[now.lumels[i]] = round.rays[i];
+    const std::vector<std::size_t> from = first_rays(round.rays), to = first_rays(result.rays);
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        result.ends[k].assign(to.back(), kToTrace);
+        for (std::size_t i = 0; i < now.lumels.size(); ++i)
+            for (std::size_t n = 0; now.lumels[i] != Renumbering::kNotThere && n < round.rays[i];
+                 ++n) {
+                const LinkEnd end = round.ends[k][from[i] + n];
+                const std::uint32_t number = numbers[end.number()];
+                result.ends[k][to[now.lumels[i]] + n] =
+                    number == LinkNumbers::kNear ? kToTrace : LinkEnd::of(number, end.cell());
+            }
+    }
+    return result;
 }
 
 }  // namespace
 
-std::uint32_t side_of_rays(std::uint32_t rays)
+std::uint64_t StoredLinks::shots() const
 {
-    if (!is_grid(rays))
-        throw Error(ErrorKind::input, std::to_string(rays) + " rays",
-                    "are not a grid: use 4, 16, 64 or 256");
-    return 1u << (std::countr_zero(rays) / 2);
+    double rays = 0.0;
+    for (const Round& round : rounds)
+        rays += std::round(kSolutions * round.mean);
+    return std::uint64_t(rays);
+}
+
+std::vector<std::size_t> first_rays(const std::vector<std::uint16_t>& rays)
+{
+    std::vector<std::size_t> first(rays.size() + 1, 0);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        first[i + 1] = first[i] + rays[i];
+    return first;
 }
 
 StoredLinks renumbered(const StoredLinks& kept, const Renumbering& now)
 {
     StoredLinks result{.scene_hash = kept.scene_hash,
-                       .rays = kept.rays,
                        .seed = kept.seed,
+                       .interleaved = kept.interleaved,
                        .ray_offset = kept.ray_offset,
                        .lumels = std::vector<std::uint64_t>(now.lumels_now, 0),
-                       .instances = std::vector<std::uint64_t>(now.instances_now, 0)};
-    const std::vector<std::uint32_t> ends = ends_now(kept, now, std::uint32_t(result.gone()));
-    result.links.assign(now.lumels_now * kept.rays, std::uint32_t(result.gone()));
+                       .instances = std::vector<std::uint64_t>(now.instances_now, 0),
+                       .boxes = std::vector<Box>(now.instances_now)};
     for (std::size_t i = 0; i < now.instances.size(); ++i)
-        if (now.instances[i] != Renumbering::kNotThere)
-            result.instances[now.instances[i]] = kept.instances[i];
-    for (std::size_t i = 0; i < now.lumels.size(); ++i)
-        if (const std::size_t j = now.lumels[i]; j != Renumbering::kNotThere) {
-            result.lumels[j] = kept.lumels[i];
-            for (std::size_t k = 0; k < kept.rays; ++k)
-                result.links[j * kept.rays + k] = ends[kept.links[i * kept.rays + k]];
+        if (const std::uint32_t to = now.instances[i]; to != Renumbering::kNotThere) {
+            result.instances[to] = kept.instances[i];
+            result.boxes[to] = kept.boxes[i];
+        } else {
+            result.gone.push_back(kept.boxes[i]);
         }
+    for (std::size_t i = 0; i < now.lumels.size(); ++i)
+        if (now.lumels[i] != Renumbering::kNotThere)
+            result.lumels[now.lumels[i]] = kept.lumels[i];
+    const std::vector<std::uint32_t> numbers = numbers_now(kept, now);
+    for (const StoredLinks::Round& round : kept.rounds)
+        result.rounds.push_back(renumbered(round, now, numbers));
     result.side = kept.side;
     return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Links stored on disk, with hashes that show which of them are still valid.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,19 +9,40 @@
 #include <glm/glm.hpp>
 
 #include "atlas/packing/atlas.h"
+#include "base/core/box.h"
+#include "links/direct/solutions.h"
+#include "links/kept/link_table.h"
 
 namespace lumel {
 
-/// Everything needed to relight the lumels over stored links, for a scene of N lumels and I
-/// instances. Independent of lamps, sky and albedo overrides.
+/// The ends of all rays of a bake, by which light is found again in its scene or in an edited one,
+/// of N lumels and I instances. Independent of lamps, sky and materials.
 struct StoredLinks {
+    /// Rays traced in one round of a bake.
+    struct Round {
+        double mean = 0.0;                ///< rays per lumel in each solution
+        std::vector<std::uint16_t> rays;  ///< [N] in each solution
+        /// [solutions][rays of all lumels] The numbers are those of LinkNumbers(I, N), with lumels
+        /// in place of sub-lumels. LinkNumbers::kNear: to be traced again.
+        std::array<std::vector<LinkEnd>, kSolutions> ends;
+
+        /// Without the ends, which a file packs.
+        template <class Archive>
+        void state(Archive& archive)
+        {
+            archive(mean, rays);
+        }
+    };
+
     std::string scene_hash;                ///< Scene::hash of the baked scene
-    std::uint32_t rays = 0;                ///< rays per lumel
-    std::uint32_t seed = 0;                ///< seeds ray directions
+    std::uint32_t seed = 0;                ///< LinksOptions::seed
+    std::uint32_t interleaved = 0;         ///< side of SharedDirections, 0: none
     float ray_offset = 0.0f;               ///< distance of ray origins from surfaces [m]
     std::vector<std::uint64_t> lumels;     ///< [N] lumel_hashes()
     std::vector<std::uint64_t> instances;  ///< [I] instance_hashes()
-    std::vector<std::uint32_t> links;      ///< [N][rays] as of LumelLinks
+    std::vector<Box> boxes;                ///< [I] bounds of the instances [m]
+    std::vector<Round> rounds;
+    std::vector<Box> gone;  ///< bounds of removed instances; never in a file
 
     /// Unrounded texture coordinates; scene.glb has rounded ones.
     struct StoredTexcoords {
@@ -41,20 +63,14 @@ struct StoredLinks {
     std::vector<glm::ivec2> back_shift;  ///< as in Atlas
     std::uint32_t shows_front = 0;       ///< 1: as in Atlas
 
-    /// Number of possible ends of a link: lumels, sky, absorbed, absorbed on an instance.
-    std::uint64_t ends() const { return lumels.size() + 2 + instances.size(); }
-    /// End of a renumbered link whose target was removed. Never in a file.
-    std::uint64_t gone() const { return ends(); }
+    /// Throws Error{input} if there are too many.
+    LinkNumbers numbers() const { return {instances.size(), lumels.size()}; }
+    /// Rays per lumel in all solutions and rounds.
+    std::uint64_t shots() const;
 };
 
-/// True for the supported ray counts 4, 16, 64 and 256.
-constexpr bool is_grid(std::uint32_t rays)
-{
-    return rays == 4 || rays == 16 || rays == 64 || rays == 256;
-}
-
-/// Side of the grid of a lumel's rays. Throws Error{input} unless `rays` is 4, 16, 64 or 256.
-std::uint32_t side_of_rays(std::uint32_t rays);
+/// [N + 1] Index of the first ray of each lumel, given their numbers of rays [N].
+std::vector<std::size_t> first_rays(const std::vector<std::uint16_t>& rays);
 
 /// New numbers of stored lumels and instances, by old number. kNotThere: removed.
 struct Renumbering {
@@ -66,7 +82,8 @@ struct Renumbering {
 };
 
 /// The links with lumels and instances renumbered. New lumels and instances have hash 0, as if
-/// changed; links to removed ones end in gone(). Leaves out texture coordinates.
+/// changed; their rays, and those that ended on removed ones, are to be traced again. Leaves out
+/// texture coordinates.
 StoredLinks renumbered(const StoredLinks& kept, const Renumbering& now);
 
 /// Copies the texture coordinates of an atlas.

@@ -52,19 +52,12 @@ DisplayFilter::DisplayFilter(const LinkContext& place, const LumelLinks& links)
 
 void DisplayFilter::begin(const LumelSweeps& sweeps, const glm::vec3& sky)
 {
-    const std::vector<glm::vec3> dark(places_.size(), glm::vec3(0.0f));
-    begin({dark, dark});
+    const std::size_t count = places_.size();
     sweeps_ = &sweeps;
     sky_ = sky;
     stage_ = Stage::halves;
-}
-
-void DisplayFilter::begin(std::array<std::vector<glm::vec3>, 2> halves)
-{
-    stage_ = Stage::nearest;
     next_ = 0;
-    const std::size_t count = places_.size();
-    halves_ = std::move(halves);
+    halves_.fill(std::vector<glm::vec3>(count, glm::vec3(0.0f)));
     nearest_.assign(count, 0.0f);
     noise_.assign(count, 0.0f);
     steps_.assign(count, 0);
@@ -267,11 +260,6 @@ glm::vec3 DisplayFilter::filtered(const LumelSweeps& sweeps, std::span<const glm
                                   std::size_t i) const
 {
     return mixed([&](std::size_t j) { return by_rays(sweeps, sky, j); }, i);
-}
-
-glm::vec3 DisplayFilter::filtered(std::span<const glm::vec3> light, std::size_t i) const
-{
-    return mixed([&](std::size_t j) { return light[j]; }, i);
 }
 
 glm::vec3 DisplayFilter::irradiance(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,

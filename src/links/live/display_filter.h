@@ -23,8 +23,6 @@ public:
     /// Schedules new weights for the current links, sweeps and sky light times `sky`. Call step()
     /// next.
     void begin(const LumelSweeps& sweeps, const glm::vec3& sky);
-    /// Schedules new weights from independent halves of the light [2][N] [lx].
-    void begin(std::array<std::vector<glm::vec3>, 2> halves);
     /// Runs a piece of that work. Returns true when all is done.
     bool step();
 
@@ -35,8 +33,6 @@ public:
     /// Its part by rays.
     glm::vec3 filtered(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
                        std::size_t lumel) const;
-    /// Applies the weights to any light [N].
-    glm::vec3 filtered(std::span<const glm::vec3> light, std::size_t lumel) const;
     /// Expected error of the displayed light from ray noise, as RMS over channels relative to the
     /// light. 1 for lumels without weights, 0 for buried ones.
     float noise(const LumelSweeps& sweeps, std::span<const glm::vec3> sky, std::size_t lumel) const;

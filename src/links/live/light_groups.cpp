@@ -13,8 +13,6 @@ namespace {
 
 /// Lumels per task: for all their light, and for the part that a move can change.
 constexpr std::size_t kFoundPerTask = 256, kFollowedPerTask = 64;
-/// Lumels between progress reports.
-constexpr std::size_t kFoundPerStep = 16384;
 /// Emitters of more sources select one for each ray, by sampling weight.
 constexpr std::size_t kMaxAlone = 8;
 /// Dimension pairs of a ray's random numbers.
@@ -22,22 +20,19 @@ constexpr std::uint32_t kStartPair = 0, kSourcePair = 1, kChoicePair = 2;
 
 }  // namespace
 
-LightGroups::LightGroups(const LinkContext& place, const GroupedLightOptions& options,
-                         const ProgressCallback& progress)
+LightGroups::LightGroups(const LinkContext& place, const GroupedLightOptions& options)
     : place_(place),
       options_(options)
 {
     list_senders();
-    const std::uint64_t of_one =
-        place.lumels().size() * sizeof(glm::vec3) * (options.halves ? 2 : 1);
+    const std::uint64_t of_one = place.lumels().size() * sizeof(glm::vec3);
     const std::size_t fit = std::max<std::size_t>(std::size_t(options.most_bytes / of_one), 1);
     groups_.resize(std::min(fit, senders_.size()));
     for (std::uint32_t s = 0; s < senders_.size(); ++s)
         groups_[std::min<std::size_t>(s, groups_.size() - 1)].senders.push_back(s);
     this->place();
-    const double share = 1.0 / double(std::max<std::size_t>(groups_.size(), 1));
-    for (std::size_t g = 0; g < groups_.size(); ++g)
-        find(groups_[g], part_of(progress, share * double(g), share * double(g + 1)));
+    for (Group& group : groups_)
+        find(group);
 }
 
 void LightGroups::list_senders()
@@ -61,7 +56,7 @@ void LightGroups::add_groups()
         grouped += group.senders.size();
     for (std::size_t s = grouped; s < senders_.size(); ++s) {
         if (!is_full)
-            make_room(groups_.emplace_back());
+            groups_.emplace_back().light.resize(place_.lumels().size());
         groups_.back().senders.push_back(std::uint32_t(s));
     }
 }
@@ -108,27 +103,13 @@ void LightGroups::find_again(LightSources::Part part, std::uint32_t index)
         find(groups_[std::min<std::size_t>(sender, groups_.size() - 1)]);
 }
 
-void LightGroups::make_room(Group& group) const
+void LightGroups::find(Group& group)
 {
     group.light.resize(place_.lumels().size());
-    if (options_.halves)
-        group.off.resize(group.light.size());
-}
-
-void LightGroups::find(Group& group, const ProgressCallback& progress)
-{
-    const std::size_t lumels = place_.lumels().size();
-    make_room(group);
-    parallel_steps(
-        lumels, kFoundPerStep, kFoundPerTask,
-        [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i)
-                find_at(group, i);
-        },
-        [&](std::size_t done) {
-            notify(progress, double(done) / double(lumels));
-            return true;
-        });
+    parallel_for(group.light.size(), kFoundPerTask, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            group.light[i] = light_of(group, i);
+    });
     summed_ = false;
 }
 
@@ -143,7 +124,7 @@ std::uint64_t LightGroups::follow(std::uint32_t thing, const Box& before, std::s
             std::uint64_t count = 0;
             for (std::size_t i = first + from; i < first + to; ++i)
                 if (moved || place_.object_of(i) == thing || may_cross(group, i, before, now)) {
-                    find_at(group, i);
+                    group.light[i] = light_of(group, i);
                     ++count;
                 }
             found += count;
@@ -193,34 +174,27 @@ bool LightGroups::may_cross(std::uint32_t source, std::size_t i, const Box& box)
                                origin.box.grown(place_.rays.ray_offset()));
 }
 
-void LightGroups::find_at(Group& group, std::size_t i) const
+glm::vec3 LightGroups::light_of(const Group& group, std::size_t i) const
 {
-    const Found found = light_of(group, i);
-    group.light[i] = found.light;
-    if (options_.halves)
-        group.off[i] = found.off;
-}
-
-LightGroups::Found LightGroups::light_of(const Group& group, std::size_t i) const
-{
-    Found sum;
+    glm::vec3 sum(0.0f);
     if (place_.is_buried(i))
         return sum;
     for (const std::uint32_t s : group.senders)
-        sum.add(light_of(senders_[s], i), group.is_shared() ? senders_[s].factor : glm::vec3(1.0f));
+        sum += (group.is_shared() ? senders_[s].factor : glm::vec3(1.0f)) *
+               light_of(senders_[s], i);
     return sum;
 }
 
-LightGroups::Found LightGroups::light_of(const Emitter& sender, std::size_t i) const
+glm::vec3 LightGroups::light_of(const Emitter& sender, std::size_t i) const
 {
     const std::uint32_t own =
         PathSamples::hash(PathSamples::hash(options_.seed, std::uint32_t(i)),
                           PathSamples::hash(std::uint32_t(sender.part), sender.index));
     if (sender.sources.size() > kMaxAlone)
         return by_many(sender, own, i);
-    Found sum;
+    glm::vec3 sum(0.0f);
     for (std::uint32_t n = 0; n < sender.sources.size(); ++n)
-        sum.add(by_one(sender.sources[n], PathSamples::hash(own, n), i), glm::vec3(1.0f));
+        sum += by_one(sender.sources[n], PathSamples::hash(own, n), i);
     return sum;
 }
 
@@ -240,29 +214,25 @@ glm::vec3 LightGroups::transmittance(const RayOrigin& start, const SourceSample&
     return glm::vec3(place_.rays.is_clear(ray) ? 1.0f : 0.0f);
 }
 
-/// A few rays, and many if they see part of the source. The first half of each set is as well
-/// stratified as the second.
-LightGroups::Found LightGroups::by_one(std::uint32_t source, std::uint32_t stream,
+/// A few rays, and many if they see part of the source.
+glm::vec3 LightGroups::by_one(std::uint32_t source, std::uint32_t stream,
                                        std::size_t i) const
 {
-    SourceEstimate found, half;
+    SourceEstimate found;
     for (std::uint32_t k = 0; k < options_.many_rays; ++k) {
         if (k == options_.few_rays && (found.free == 0 || found.hidden == 0))
             break;
-        if (2 * k == options_.few_rays || 2 * k == options_.many_rays)
-            half = found;
         const PathSamples samples(stream, k);
         const RayOrigin start = start_of(i, k);
         const SourceSample sample =
             place_.sources.sample(source, start, samples.stratified(kSourcePair));
         found.add(sample, transmittance(start, sample, samples.bits(kSourcePair)));
     }
-    const glm::vec3 light = found.light();
-    return {light, half.light() - light};
+    return found.light();
 }
 
 /// Each ray goes to a source selected by sampling weight.
-LightGroups::Found LightGroups::by_many(const Emitter& sender, std::uint32_t stream,
+glm::vec3 LightGroups::by_many(const Emitter& sender, std::uint32_t stream,
                                         std::size_t i) const
 {
     std::vector<float> running(sender.sources.size());
@@ -270,10 +240,8 @@ LightGroups::Found LightGroups::by_many(const Emitter& sender, std::uint32_t str
     for (std::size_t n = 0; n < running.size(); ++n)
         running[n] = total += place_.sources.sampling_weight(
             sender.sources[n], place_.world[i].centre, place_.lumels()[i].size);
-    glm::vec3 sum(0.0f), half(0.0f);
+    glm::vec3 sum(0.0f);
     for (std::uint32_t k = 0; k < options_.many_rays; ++k) {
-        if (2 * k == options_.many_rays)
-            half = sum;
         const PathSamples samples(stream, k);
         const RayOrigin start = start_of(i, k);
         const float mark = samples.stratified(kChoicePair).x * total;
@@ -287,8 +255,7 @@ LightGroups::Found LightGroups::by_many(const Emitter& sender, std::uint32_t str
         sum += transmittance(start, sample, samples.bits(kSourcePair)) * sample.irradiance *
                (total / own);
     }
-    const glm::vec3 light = sum / float(options_.many_rays);
-    return {light, half / (0.5f * float(options_.many_rays)) - light};
+    return sum / float(options_.many_rays);
 }
 
 const std::vector<glm::vec3>& LightGroups::sum()
@@ -306,20 +273,11 @@ const std::vector<glm::vec3>& LightGroups::sum()
     return sum_;
 }
 
-std::vector<glm::vec3> LightGroups::off() const
-{
-    std::vector<glm::vec3> sum(place_.lumels().size(), glm::vec3(0.0f));
-    for (const Group& group : groups_)
-        for (std::size_t i = 0; i < group.off.size(); ++i)
-            sum[i] += group.off[i];
-    return sum;
-}
-
 std::uint64_t LightGroups::bytes() const
 {
     std::uint64_t bytes = sum_.size() * sizeof(glm::vec3);
     for (const Group& group : groups_)
-        bytes += (group.light.size() + group.off.size()) * sizeof(glm::vec3);
+        bytes += group.light.size() * sizeof(glm::vec3);
     return bytes;
 }
 

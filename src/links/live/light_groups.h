@@ -6,7 +6,6 @@
 
 #include <glm/glm.hpp>
 
-#include "base/core/progress_callback.h"
 #include "lights/source_estimate.h"
 #include "links/live/link_context.h"
 
@@ -19,7 +18,6 @@ struct GroupedLightOptions {
     /// them is dimmed.
     std::uint64_t most_bytes = std::uint64_t(1) << 30;
     std::uint32_t seed = 0;
-    bool halves = false;  ///< stores the deviation of half of the rays, see off()
 };
 
 /// Light from each lamp, each emissive material and the bright part of the sky at each lumel. A
@@ -27,8 +25,7 @@ struct GroupedLightOptions {
 class LightGroups {
 public:
     /// Computes all light. All arguments must outlive this.
-    LightGroups(const LinkContext& place, const GroupedLightOptions& options,
-                const ProgressCallback& progress = {});
+    LightGroups(const LinkContext& place, const GroupedLightOptions& options);
 
     /// Scales an emitter's light to `factor` × its value in the scene. Returns false if there is
     /// none.
@@ -45,9 +42,6 @@ public:
 
     /// Σ over groups [N] [lx].
     const std::vector<glm::vec3>& sum();
-    /// [N] [lx] Irradiance by the first half of the rays minus that by all, Σ over groups, at
-    /// factor 1 but for shared groups. Requires options.halves.
-    std::vector<glm::vec3> off() const;
     std::size_t groups() const { return groups_.size(); }
     std::uint64_t bytes() const;
 
@@ -60,34 +54,20 @@ private:
     };
     struct Group {
         std::vector<std::uint32_t> senders;
-        std::vector<glm::vec3>
-            light;                   ///< [N] [lx] of one emitter at factor 1; of several, at theirs
-        std::vector<glm::vec3> off;  ///< [N] [lx] deviation, see off()
+        /// [N] [lx] of one emitter at factor 1; of several, at theirs
+        std::vector<glm::vec3> light;
 
         bool is_shared() const { return senders.size() > 1; }
     };
 
-    /// Light of a lumel [lx], and the deviation by half of the rays.
-    struct Found {
-        glm::vec3 light{0.0f}, off{0.0f};
-
-        void add(const Found& other, const glm::vec3& factor)
-        {
-            light += factor * other.light;
-            off += factor * other.off;
-        }
-    };
-
     void list_senders();
     void add_groups();
-    void make_room(Group& group) const;
     std::uint32_t sender_of(LightSources::Part part, std::uint32_t index) const;
-    void find(Group& group, const ProgressCallback& progress = {});
-    void find_at(Group& group, std::size_t lumel) const;
-    Found light_of(const Group& group, std::size_t lumel) const;
-    Found light_of(const Emitter& sender, std::size_t lumel) const;
-    Found by_one(std::uint32_t source, std::uint32_t stream, std::size_t lumel) const;
-    Found by_many(const Emitter& sender, std::uint32_t stream, std::size_t lumel) const;
+    void find(Group& group);
+    glm::vec3 light_of(const Group& group, std::size_t lumel) const;
+    glm::vec3 light_of(const Emitter& sender, std::size_t lumel) const;
+    glm::vec3 by_one(std::uint32_t source, std::uint32_t stream, std::size_t lumel) const;
+    glm::vec3 by_many(const Emitter& sender, std::uint32_t stream, std::size_t lumel) const;
     RayOrigin start_of(std::size_t lumel, std::uint32_t ray) const;
     glm::vec3 transmittance(const RayOrigin& start, const SourceSample& sample,
                             std::uint32_t seed) const;

@@ -7,7 +7,6 @@
 #include "base/core/clock.h"
 #include "base/core/error.h"
 #include "base/core/parallel.h"
-#include "links/live/link_relighter.h"
 #include "scene/sky/sky_file.h"
 
 namespace lumel {

@@ -10,14 +10,13 @@
 #include "links/live/lumel_links.h"
 
 #include <limits>
-#include <mutex>
 #include <numbers>
 
+#include "base/core/error.h"
 #include "base/core/frame.h"
 #include "base/core/parallel.h"
 #include "base/core/sphere.h"
 #include "links/live/direction_cells.h"
-#include "links/live/link_changes.h"
 #include "rays/paths/samples.h"
 
 namespace lumel {
@@ -25,11 +24,8 @@ namespace {
 
 /// Lumels per task: for all their links, and for those that a move can change.
 constexpr std::size_t kTracedPerTask = 256, kRetracedPerTask = 64;
-/// Lumels between progress reports.
-constexpr std::size_t kTracedPerStep = 16384;
-/// Random numbers of a ray: positions within its direction cell and origin cell; assignment of four
-/// rays to quarters.
-constexpr std::uint32_t kAcross = 1, kStart = 2, kStartAcross = 3, kQuarter = 4;
+/// Random numbers of a ray: positions within its direction cell and origin cell.
+constexpr std::uint32_t kAcross = 1, kStart = 2, kStartAcross = 3;
 
 float to_unit(std::uint32_t key, std::uint32_t what)
 {
@@ -81,8 +77,16 @@ private:
     glm::mat3 frame_;
 };
 
-LumelLinks::LumelLinks(const LinkContext& place, std::uint32_t side, std::uint32_t seed,
-                       const StoredLinks* kept, const ProgressCallback& progress)
+std::uint32_t side_of_rays(std::uint32_t rays)
+{
+    for (const std::uint32_t side : {2u, 4u, 8u, 16u})
+        if (rays == side * side)
+            return side;
+    throw Error(ErrorKind::input, std::to_string(rays) + " rays",
+                "are not a grid: use 4, 16, 64 or 256");
+}
+
+LumelLinks::LumelLinks(const LinkContext& place, std::uint32_t side, std::uint32_t seed)
     : place_(place),
       near_(place.scene.scene, place.scene.atlas, place.scene.lumels),
       side_(side),
@@ -97,79 +101,10 @@ LumelLinks::LumelLinks(const LinkContext& place, std::uint32_t side, std::uint32
         on_thing_[i] = place_.object_of(i);
     for (std::uint32_t i = 0; i < place_.scene.scene.instances.size(); ++i)
         on_thing_.push_back(place_.rays.object_of(i));
-    if (kept)
-        if (const LinkChanges changes = changes_since(*kept, place_, rays(), seed_); !changes.all) {
-            take_over(*kept, changes, progress);
-            return;
-        }
-    trace_all(progress);
-}
-
-void LumelLinks::trace_all(const ProgressCallback& progress)
-{
-    parallel_steps(
-        lumels_, kTracedPerStep, kTracedPerTask,
-        [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i)
-                trace(i);
-        },
-        [&](std::size_t done) {
-            notify(progress, double(done) / double(lumels_));
-            return true;
-        });
-    traced_.started = links_.size();
-}
-
-/// Retraces changed links. find_sky() computes the sky light.
-void LumelLinks::take_over(const StoredLinks& kept, const LinkChanges& changes,
-                           const ProgressCallback& progress)
-{
-    links_ = kept.links;  // may contain StoredLinks::gone()
-    std::mutex adding;
-    parallel_steps(
-        lumels_, kTracedPerStep, kRetracedPerTask,
-        [&](std::size_t first, std::size_t last) {
-            Retraced sum;
-            for (std::size_t i = first; i < last; ++i)
-                sum += take_over(i, changes);
-            const std::lock_guard lock(adding);
-            traced_ += sum;
-        },
-        [&](std::size_t done) {
-            notify(progress, double(done) / double(lumels_));
-            return true;
-        });
-    find_sky();
-}
-
-/// A link changes only if its origin changed, its end changed, or it hits a moved instance at its
-/// new position.
-Retraced LumelLinks::take_over(std::size_t i, const LinkChanges& changes)
-{
-    Retraced count;
-    if (changes.starts[i]) {
-        trace(i);
-        count.started = rays();
-        return count;
-    }
-    if (place_.is_buried(i))
-        return count;
-    std::uint32_t* links = &links_[i * rays()];
-    const Rays rays_of(*this, i);
-    for (std::uint32_t k = 0; k < rays(); ++k)
-        if (changes.ends[links[k]]) {
-            links[k] = end_of(rays_of, k);
-            ++count.ended;
-        }
-    for (const LinkChanges::Moved& moved : changes.moved)
-        for_rays_towards(rays_of, i, moved.box, [&](std::uint32_t k, const glm::vec3& direction) {
-            const RaySpan ray = rays_of.ray(rays_of.start(k), direction, k);
-            if (moved.tree.transmittance(ray) != glm::vec3(0.0f))
-                return;
-            links[k] = end_of(rays_of, k);
-            ++count.crossed;
-        });
-    return count;
+    parallel_for(lumels_, kTracedPerTask, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            trace(i);
+    });
 }
 
 /// Visits a lumel's rays that can hit something in a box.
@@ -197,16 +132,6 @@ void LumelLinks::find_sky()
             if (!place_.is_buried(i))
                 find_sky(Rays(*this, i), i);
     });
-}
-
-void LumelLinks::keep(StoredLinks& kept) const
-{
-    kept.rays = rays();
-    kept.seed = seed_;
-    kept.ray_offset = place_.rays.ray_offset();
-    kept.lumels = lumel_hashes(place_.world, place_.scene.lumels);
-    kept.instances = instance_hashes(place_.scene.scene);
-    kept.links = links_;
 }
 
 glm::vec3 LumelLinks::direction(std::size_t lumel, std::uint32_t ray) const
@@ -283,14 +208,6 @@ void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
     white_sky_light_[i] = share * sums[0];
 }
 
-/// Sky light of one ray if it hits the sky, scaled as if it were the only one [lx].
-glm::vec3 LumelLinks::sky_by(std::size_t lumel, std::uint32_t ray) const
-{
-    if (place_.scene.scene.sky.empty())
-        return glm::vec3(0.0f);
-    return std::numbers::pi_v<float> * place_.sources.dim_sky(direction(lumel, ray));
-}
-
 /// Seed of a lumel's random numbers. The lumel's index can change when objects are added or
 /// removed.
 std::uint32_t LumelLinks::key_of(std::size_t i) const
@@ -300,13 +217,6 @@ std::uint32_t LumelLinks::key_of(std::size_t i) const
     return PathSamples::hash(
         PathSamples::hash(PathSamples::hash(seed_, lumel.texel % width), lumel.texel / width),
         lumel.flags & kLumelBack ? 1u : 0u);
-}
-
-std::uint32_t LumelLinks::quarter_of(std::size_t lumel, std::uint32_t ray) const
-{
-    const std::uint32_t u = ray % side_, v = ray / side_;
-    const std::uint32_t four = PathSamples::hash(key_of(lumel), v / 2 * side_ + u / 2);
-    return 2 * half_of(ray) + ((u ^ (PathSamples::hash(four, kQuarter) >> half_of(ray))) & 1u);
 }
 
 Retraced LumelLinks::follow(std::uint32_t thing, std::span<const std::uint32_t> lumels)

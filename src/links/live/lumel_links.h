@@ -1,15 +1,12 @@
 #pragma once
 // Ray links from lumel to lumel, updated when objects move.
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "atlas/cells/near_lumels.h"
-#include "base/core/progress_callback.h"
-#include "links/kept/stored_links.h"
 #include "links/live/link_context.h"
 
 namespace lumel {
@@ -30,17 +27,16 @@ struct Retraced {
     }
 };
 
-struct LinkChanges;
+/// Side of the grid of a lumel's rays. Throws Error{input} unless `rays` is 4, 16, 64 or 256.
+std::uint32_t side_of_rays(std::uint32_t rays);
 
 /// Each lumel sends side² cosine-distributed rays, one per cell of a grid over (sin² θ, φ). A ray
 /// depends only on its number and on the atlas position of its lumel, so it can be regenerated.
 class LumelLinks {
 public:
     /// Traces all links. side: grid side, a power of two. The members of `place` must
-    /// outlive this. kept: links of the same scene, or of one with objects elsewhere: only links
-    /// that can have changed are traced, with the same result.
-    LumelLinks(const LinkContext& place, std::uint32_t side, std::uint32_t seed,
-               const StoredLinks* kept = nullptr, const ProgressCallback& progress = {});
+    /// outlive this.
+    LumelLinks(const LinkContext& place, std::uint32_t side, std::uint32_t seed);
 
     /// Retraces the rays of these lumels that start on `thing`, ended on it or hit it now. After
     /// all lumels, links equal those of a new LumelLinks.
@@ -65,10 +61,6 @@ public:
     /// Number of ends, lumels included.
     std::size_t ends() const { return on_thing_.size(); }
 
-    /// Counts of links traced at construction, reused ones excluded.
-    const Retraced& traced() const { return traced_; }
-    /// Stores everything that a later run needs.
-    void keep(StoredLinks& kept) const;
     std::uint64_t bytes() const
     {
         return (links_.size() + on_thing_.size()) * sizeof(std::uint32_t) +
@@ -81,19 +73,10 @@ public:
     const std::vector<glm::vec3>& white_sky_light() const { return white_sky_light_; }
     /// Checkerboard half of a ray's cell: 0 white, 1 black.
     std::uint32_t half_of(std::uint32_t ray) const { return (ray % side_ + ray / side_) % 2; }
-    /// Light by the rays of each quarter, scaled as if they were all rays [lx], if ends have
-    /// radiosity `sent`: 0 and 1 are the white half, 2 and 3 the black one. Each quarter has a
-    /// random one of every four adjacent cells, so that quarters differ only by noise.
-    template <class Sent>
-    std::array<glm::vec3, 4> by_quarters(std::size_t lumel, const Sent& sent) const;
 
 private:
     class Rays;
 
-    void trace_all(const ProgressCallback& progress);
-    void take_over(const StoredLinks& kept, const LinkChanges& changes,
-                   const ProgressCallback& progress);
-    Retraced take_over(std::size_t lumel, const LinkChanges& changes);
     template <class Visit>
     void for_rays_towards(const Rays& rays, std::size_t lumel, const Box& box,
                           const Visit& visit) const;
@@ -107,29 +90,14 @@ private:
     void trace(std::size_t lumel);
     Retraced follow(std::size_t lumel, std::uint32_t thing, const Box& box);
     void find_sky(const Rays& rays, std::size_t lumel);
-    glm::vec3 sky_by(std::size_t lumel, std::uint32_t ray) const;
     std::uint32_t key_of(std::size_t lumel) const;
-    std::uint32_t quarter_of(std::size_t lumel, std::uint32_t ray) const;
 
     const LinkContext place_;
     NearLumels near_;
     std::uint32_t side_, seed_, lumels_;
-    Retraced traced_;
     std::vector<std::uint32_t> links_;     ///< [N][side²]
     std::vector<std::uint32_t> on_thing_;  ///< [ends] an object, or DynamicRayScene::kStatic
     std::vector<glm::vec3> sky_light_, white_sky_light_;  ///< [N]
 };
-
-template <class Sent>
-std::array<glm::vec3, 4> LumelLinks::by_quarters(std::size_t lumel, const Sent& sent) const
-{
-    std::array<glm::vec3, 4> light{};
-    const std::span<const std::uint32_t> links = of(lumel);
-    for (std::uint32_t k = 0; k < links.size(); ++k)
-        light[quarter_of(lumel, k)] += links[k] == sky() ? sky_by(lumel, k) : sent(links[k]);
-    for (glm::vec3& quarter : light)
-        quarter *= 4.0f / float(rays());
-    return light;
-}
 
 }  // namespace lumel

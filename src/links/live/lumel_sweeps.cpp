@@ -37,11 +37,6 @@ LumelSweeps::LumelSweeps(const LumelLinks& links)
 {
 }
 
-LumelSweeps::LumelSweeps(const LumelSweeps& all, std::uint32_t half) : LumelSweeps(all)
-{
-    half_ = half;
-}
-
 double LumelSweeps::Sums::relative() const
 {
     return light > 0.0 ? std::sqrt(squares * count) / light : 0.0;
@@ -73,14 +68,9 @@ glm::vec4 LumelSweeps::arriving(std::size_t i) const
     const std::span<const std::uint32_t> links = links_.of(i);
     const float share = 1.0f / float(links_.rays());
     glm::vec4 sum(0.0f);
-    if (half_ == kAll) {
-        for (std::size_t k = 0; k < links.size(); k += 2)
-            sum += sent_[links[k]] + sent_[links[k + 1]];  // pairs shorten the chain of additions
-        return share * sum;
-    }
-    for (std::uint32_t k = 0; k < links.size(); k += 2)  // one ray of each pair is in this half
-        sum += sent_[links[links_.half_of(k) == half_ ? k : k + 1]];
-    return 2.0f * share * sum;
+    for (std::size_t k = 0; k < links.size(); k += 2)
+        sum += sent_[links[k]] + sent_[links[k + 1]];  // pairs shorten the chain of additions
+    return share * sum;
 }
 
 bool LumelSweeps::step(std::size_t lumels)

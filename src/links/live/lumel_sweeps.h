@@ -30,9 +30,6 @@ class LumelSweeps {
 public:
     /// The links must outlive this.
     explicit LumelSweeps(const LumelLinks& links);
-    /// Uses the rays of one checkerboard half (0 white, 1 black) as if they were all; starts from
-    /// the light of all.
-    LumelSweeps(const LumelSweeps& all, std::uint32_t half);
 
     /// Starts with new D [N] [lx] and ρ [N], from the current X.
     void begin(const std::vector<glm::vec3>& direct, const std::vector<glm::vec3>& albedo);
@@ -56,8 +53,6 @@ public:
     std::uint64_t bytes() const;
 
 private:
-    static constexpr std::uint32_t kAll = ~0u;
-
     /// Sums of radiosity, over all channels.
     struct Sums {
         double light = 0.0, squares = 0.0, count = 0.0;
@@ -74,7 +69,6 @@ private:
     glm::vec4 arriving(std::size_t lumel) const;
 
     const LumelLinks& links_;
-    std::uint32_t half_ = kAll;
     // Padded, so that each is one aligned load.
     std::vector<glm::vec4> direct_, albedo_, received_;  ///< [N]
     std::vector<glm::vec4> sent_;                        ///< [ends] B

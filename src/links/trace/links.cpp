@@ -122,16 +122,28 @@ private:
 
 LinkRadiosity::LinkRadiosity(const gpu::Device& device, const SolveScene& scene,
                              const LinksOptions& options, const SolveLimits& limits, Parts parts)
+    : LinkRadiosity(scene,
+                    {.rays = caster_for(device, scene.rays, options.rays),
+                     .bundles = bundles_for(device, scene.rays, options.rays)},
+                    options, limits, parts)
+{
+}
+
+LinkRadiosity::LinkRadiosity(const SolveScene& scene, const LinksOptions& options,
+                             const SolveLimits& limits, Parts parts)
+    : LinkRadiosity(scene, {.rays = cast_on_host(scene.rays)}, options, limits, parts)
+{
+}
+
+LinkRadiosity::LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters,
+                             const LinksOptions& options, const SolveLimits& limits, Parts parts)
     : options_(options),
       target_error_(limits.target_error),
       target_dark_error_(limits.target_dark_error),
       most_shots_(limits.max_shots),
       most_bytes_(limits.max_bytes),
       parts_wanted_(parts),
-      work_(scene,
-            {.rays = caster_for(device, scene.rays, options.rays),
-             .bundles = bundles_for(device, scene.rays, options.rays)},
-            options.rule, order_in_space)
+      work_(scene, std::move(casters), options.rule, order_in_space)
 {
 }
 
@@ -215,7 +227,7 @@ void LinkRadiosity::step()
 template <class Archive>
 void LinkRadiosity::state(Archive& archive)
 {
-    archive(*direct_, round_, mean_rays_, rays_, traced_, mean_.light, mean_.noise, mean_.wrong,
+    archive(*direct_, round_, mean_rays_, means_, rays_, traced_, mean_.light, mean_.noise, mean_.wrong,
             mean_light_, all_, dark_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
         archive(*links_[k], received_[k]);
@@ -248,7 +260,7 @@ void LinkRadiosity::check_sizes() const
     };
     bool fits = direct_->fits() && is(rays_.size(), lumels) && is(mean_.light.size(), lumels) &&
                 is(mean_.noise.size(), lumels) && is(mean_.wrong.size(), lumels) &&
-                traced_ <= tracer_->blocks();
+                traced_ <= tracer_->blocks() && means_.size() == round_;
     for (std::size_t k = 0; k < kSolutions; ++k)
         fits = fits && links_[k]->fits(work_.order, *parts_, *numbers_) &&
                is(received_[k].size(), parts);
@@ -267,8 +279,16 @@ double LinkRadiosity::begun() const
     return kDirectOfRound + (1.0 - kDirectOfRound) * double(traced_) / double(tracer_->blocks());
 }
 
+void LinkRadiosity::use(const StoredLinks& links, Then then)
+{
+    stored_ = &links;
+    then_ = then;
+}
+
 void LinkRadiosity::cut()
 {
+    if (stored_)
+        changes_ = changes_since(*stored_, work_.scene, work_.world, options_.seed);
     parts_.emplace(work_.world, work_.cells, work_.scene.rays, work_.scene.lumels,
                    PathSamples::hash(options_.seed, kPartStream));
     direct_.emplace(work_, PathSamples::hash(options_.seed, kDirectStream));
@@ -286,8 +306,7 @@ void LinkRadiosity::trace()
     const std::size_t count =
         std::max(std::size_t(double(blocks * kFirstRays) / mean_rays_), std::size_t(1));
     const std::size_t last = std::min(traced_ + count, tracer_->blocks());
-    const std::uint32_t side =
-        work_.casters.bundles && options_.interleaved == 0 ? kInterleaved : options_.interleaved;
+    const std::uint32_t side = interleaved();
     for (std::uint32_t k = 0; k < kSolutions; ++k) {
         const std::uint32_t stream = kLinkStream + kSolutions * round_ + k;
         std::optional<SharedDirections> shared;
@@ -295,15 +314,59 @@ void LinkRadiosity::trace()
             shared.emplace(
                 side, mean_rays_,
                 PathSamples::hash(PathSamples::hash(options_.seed, kSharedStream), stream));
-        tracer_->trace(traced_, last, {rays_, stream, shared ? &*shared : nullptr}, *links_[k]);
+        LinkTracer::Sending sending{rays_, stream, shared ? &*shared : nullptr};
+        if (has_known_round())
+            sending.known.emplace(changes_, stored_->rounds[round_], first_rays_, k);
+        tracer_->trace(traced_, last, sending, *links_[k]);
     }
     traced_ = last;
+}
+
+/// Side of the square of lumels with different sets of directions; 0: all have their own.
+std::uint32_t LinkRadiosity::interleaved() const
+{
+    if (stored_)
+        return stored_->interleaved;
+    return work_.casters.bundles && options_.interleaved == 0 ? kInterleaved : options_.interleaved;
+}
+
+bool LinkRadiosity::has_known_round() const
+{
+    return stored_ && round_ < stored_->rounds.size();
+}
+
+/// Starts a round of an earlier run again. Lumels that were buried have the mean number of rays.
+void LinkRadiosity::begin_known_round()
+{
+    const StoredLinks::Round& round = stored_->rounds[round_];
+    mean_rays_ = round.mean;
+    rays_ = round.rays;
+    rays_.resize(work_.order.size(), 0);
+    for (std::uint16_t& rays : rays_)
+        if (rays == 0)
+            rays = std::uint16_t(std::lround(mean_rays_));
+    first_rays_ = first_rays(round.rays);
+    begin_links();
+}
+
+void LinkRadiosity::begin_links()
+{
+    traced_ = 0;
+    stage_ = Stage::links;
+    for (std::optional<LinkTable>& links : links_)
+        links->rounds.emplace_back(tracer_->blocks());
 }
 
 /// Starts a round with the rays that the target error requires, within limits.
 void LinkRadiosity::begin_round()
 {
-    mean_rays_ = state_.shots > 0 ? more_rays() : kFirstRays;
+    if (has_known_round()) {
+        begin_known_round();
+        return;
+    }
+    mean_rays_ = state_.shots > 0          ? more_rays()
+                 : options_.even_rays > 0 ? double(options_.even_rays) / double(kSolutions)
+                                           : kFirstRays;
     const double fit = rays_that_fit();
     if (state_.shots > 0 && fit < kMinMore * double(state_.shots) / double(kSolutions)) {
         state_.full = true;
@@ -314,10 +377,7 @@ void LinkRadiosity::begin_round()
     if (most_shots_ > state_.shots)
         mean_rays_ = std::min(mean_rays_, double(most_shots_ - state_.shots) / double(kSolutions));
     share_out_rays();
-    traced_ = 0;
-    stage_ = Stage::links;
-    for (std::optional<LinkTable>& links : links_)
-        links->rounds.emplace_back(tracer_->blocks());
+    begin_links();
 }
 
 /// Further rays per lumel and solution for the target error.
@@ -392,6 +452,71 @@ void LinkRadiosity::share_out_rays()
     }
 }
 
+StoredLinks LinkRadiosity::kept(const std::string& hash) const
+{
+    StoredLinks kept{.scene_hash = hash,
+                     .seed = options_.seed,
+                     .interleaved = interleaved(),
+                     .ray_offset = work_.scene.rays.ray_offset(),
+                     .lumels = lumel_hashes(work_.world, work_.scene.lumels),
+                     .instances = instance_hashes(work_.scene.scene),
+                     .boxes = instance_boxes(work_.scene.scene)};
+    const LinkNumbers stored = kept.numbers();
+    const auto as_stored = [&](LinkEnd end) {
+        return numbers_->is_part(end.number())
+                   ? LinkEnd::of(stored.of_part(parts_->lumel(numbers_->part(end.number()))),
+                                 end.cell())
+                   : end;
+    };
+    for (std::size_t r = 0; r < links_[0]->rounds.size(); ++r) {
+        StoredLinks::Round& round = kept.rounds.emplace_back();
+        round.mean = means_[r];
+        round.rays.resize(work_.order.size());
+        for (std::size_t o = 0; o < work_.order.size(); ++o)
+            round.rays[work_.order[o]] =
+                links_[0]->rounds[r][o / kLinkBlock].rays[o % kLinkBlock];
+        const std::vector<std::size_t> first = first_rays(round.rays);
+        for (std::uint32_t k = 0; k < kSolutions; ++k) {
+            round.ends[k].resize(first.back());
+            for (std::size_t b = 0; b < links_[k]->rounds[r].size(); ++b) {
+                auto end = links_[k]->rounds[r][b].ends.begin();
+                for (std::size_t o = b * kLinkBlock;
+                     o < std::min((b + 1) * kLinkBlock, work_.order.size()); ++o) {
+                    const std::uint32_t i = work_.order[o];
+                    for (std::size_t n = first[i]; n < first[i + 1]; ++n)
+                        round.ends[k][n] = as_stored(*end++);
+                }
+            }
+        }
+    }
+    keep_places(work_.scene.atlas, kept);
+    return kept;
+}
+
+std::uint64_t LinkRadiosity::traced() const
+{
+    std::uint64_t rays = 0;
+    for_each_block([&](const LinkBlock& block) { rays += block.traced; });
+    return rays;
+}
+
+std::uint64_t LinkRadiosity::sent() const
+{
+    std::uint64_t rays = 0;
+    for_each_block([&](const LinkBlock& block) { rays += block.ends.size(); });
+    return rays;
+}
+
+template <class Visit>
+void LinkRadiosity::for_each_block(const Visit& visit) const
+{
+    for (const std::optional<LinkTable>& links : links_)
+        if (links)
+            for (const std::vector<LinkBlock>& round : links->rounds)
+                for (const LinkBlock& block : round)
+                    visit(block);
+}
+
 /// Solves for all bounces over the links of each solution.
 void LinkRadiosity::solve()
 {
@@ -405,9 +530,14 @@ void LinkRadiosity::solve()
 
 void LinkRadiosity::end_round()
 {
-    solve();
     state_.shots += std::uint64_t(std::llround(double(kSolutions) * mean_rays_));
+    means_.push_back(mean_rays_);
     ++round_;
+    if (has_known_round()) {
+        begin_known_round();
+        return;
+    }
+    solve();
     combine();
     estimate();
     go_on();
@@ -459,10 +589,15 @@ void LinkRadiosity::go_on()
     const bool reached = std::all_of(all.begin(), all.end(), [](const Wanted& one) {
         return one.now.rays + one.now.direct <= one.error * one.error;
     });
-    if (reached && !all.empty())
+    const bool is_even = options_.even_rays > 0;
+    if ((reached && !all.empty()) || is_even) {
+        state_.ended = is_even;
         return;
+    }
     if (refine_direct())
         stage_ = Stage::direct;
+    else if (stored_ && then_ == Then::end)
+        state_.ended = true;
     else
         begin_round();
 }

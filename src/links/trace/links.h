@@ -7,6 +7,7 @@
 
 #include "links/direct/direct.h"
 #include "links/filter/filter.h"
+#include "links/kept/link_changes.h"
 #include "links/trace/links_options.h"
 #include "links/trace/sweeps.h"
 #include "links/trace/tracer.h"
@@ -28,6 +29,9 @@ public:
     /// the device lacks.
     LinkRadiosity(const gpu::Device& device, const SolveScene& scene, const LinksOptions& options,
                   const SolveLimits& limits, Parts parts);
+    /// Traces rays on the CPU.
+    LinkRadiosity(const SolveScene& scene, const LinksOptions& options, const SolveLimits& limits,
+                  Parts parts = Parts::all);
     ~LinkRadiosity() override;
 
     /// GPU memory [bytes]: none.
@@ -56,10 +60,28 @@ public:
     {
         return work_.casters.bundles ? "raster" : work_.caster().name();
     }
+
+    /// What a solver does after it has the links of an earlier run.
+    enum class Then {
+        end,  ///< refines direct light at most
+        add,  ///< adds links until the target error is reached
+    };
+    /// Before the first step: takes links of an earlier run, which must outlive this, and traces
+    /// only those that can have changed. The light is that of links traced anew, bit for bit.
+    void use(const StoredLinks& links, Then then);
+    /// Links to store for a later run, after a round has ended. hash: Scene::hash.
+    StoredLinks kept(const std::string& hash) const;
+    /// Rays that lumels have sent, without the known ones.
+    std::uint64_t traced() const;
+    std::uint64_t sent() const;  ///< all
+
     void write_state(StateWriter& writer) override;
     void read_state(StateReader& reader) override;
 
 private:
+    LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters, const LinksOptions& options,
+                  const SolveLimits& limits, Parts parts);
+
     enum class Stage { begin, direct, links, solve };
     /// Squared error by rays and by direct light.
     struct Errors {
@@ -72,10 +94,16 @@ private:
 
     template <class Archive>
     void state(Archive& archive);
+    template <class Visit>
+    void for_each_block(const Visit& visit) const;
     void check_sizes() const;
     void cut();
     void trace();
     void begin_round();
+    void begin_known_round();
+    void begin_links();
+    bool has_known_round() const;
+    std::uint32_t interleaved() const;
     void share_out_rays();
     void solve();
     void end_round();
@@ -100,6 +128,10 @@ private:
     const std::uint64_t most_bytes_;  ///< memory limit of links, 0: no limit
     const Parts parts_wanted_;
     LinkWork work_;
+    const StoredLinks* stored_ = nullptr;
+    Then then_ = Then::add;
+    LinkChanges changes_;                  ///< since the links were stored
+    std::vector<std::size_t> first_rays_;  ///< of the stored round, see first_rays()
     std::optional<SubLumels> parts_;
     std::optional<LinkNumbers> numbers_;
     std::optional<DirectEstimator> direct_;
@@ -113,6 +145,7 @@ private:
     Stage stage_ = Stage::begin;
     std::uint32_t round_ = 0;          ///< current round
     double mean_rays_ = 0.0;           ///< per lumel in the round, in each solution
+    std::vector<double> means_;        ///< of all rounds that ended
     std::vector<std::uint16_t> rays_;  ///< [N] rays of each lumel in the round, in each solution
     std::size_t traced_ = 0;           ///< blocks of the round
     double mean_light_ = 0.0;          ///< summed over channels [lx]

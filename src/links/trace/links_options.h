@@ -23,6 +23,9 @@ struct LinksOptions {
     /// Lumels share directions with those this number of texels away: 4 makes 16 sets. 0: every
     /// lumel has its own, except that Rays::raster uses kInterleaved.
     std::uint32_t interleaved = 0;
+    /// Rays per lumel, in all solutions: traced evenly, in one round, and no more. 0: as many as
+    /// the target error requires.
+    std::uint32_t even_rays = 0;
 };
 
 inline constexpr std::uint32_t kInterleaved = 4;

@@ -8,7 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "links/direct/direct.h"
-#include "links/trace/link_table.h"
+#include "links/kept/link_table.h"
 
 namespace lumel {
 

@@ -85,7 +85,7 @@ struct LinkTracer::RayBatch {
     std::vector<std::uint32_t> slots_before;  ///< [lumels + 1]
     std::vector<LinkEnd> ends;                ///< [slots]
     std::vector<std::uint8_t> from;           ///< [slots] cells that the rays leave
-    std::vector<SkyRay> sky;                  ///< by slot
+    std::vector<SkyRay> sky;
     std::vector<Path> paths;                  ///< by slot
 
     // Rays that have not ended.
@@ -94,6 +94,7 @@ struct LinkTracer::RayBatch {
     std::vector<RayHit> hits;          ///< [rays or more]
     std::vector<std::uint32_t> along;  ///< [rays] shared direction, for first rays
     bool is_cast = false;              ///< hits of first rays are known
+    std::uint32_t first_rays = 0;
     std::vector<PathHit> arrivals;
 
     // One reflection; members to reuse their memory.
@@ -126,6 +127,7 @@ LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkN
     : work_(work),
       parts_(parts),
       numbers_(numbers),
+      stored_(work.scene.scene.instances.size(), work.lumels().size()),
       direct_(direct),
       hits_(work.scene.scene, work.scene.atlas, work.scene.lumels),
       seed_(seed),
@@ -133,19 +135,59 @@ LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkN
 {
 }
 
+std::span<const LinkEnd> LinkTracer::Known::of(std::size_t i, std::size_t rays) const
+{
+    const bool fits = !changes.all && !changes.starts[i] && round.rays[i] == rays;
+    return fits ? std::span(round.ends[solution]).subspan(first_rays[i], rays)
+                : std::span<const LinkEnd>();
+}
+
+/// The end that a ray still has unless it meets something that moved; empty if it can have changed.
+std::optional<LinkEnd> LinkTracer::still(LinkEnd stored, const Known& known) const
+{
+    const std::uint32_t number = stored.number();
+    if (number == LinkNumbers::kNear || known.changes.ends[number])
+        return std::nullopt;
+    return stored_.is_part(number)
+               ? LinkEnd::of(numbers_.of_part(parts_.part(stored_.part(number), stored.cell())),
+                             stored.cell())
+               : stored;
+}
+
+bool LinkTracer::may_meet_moved(const RaySpan& ray, const LinkChanges& changes)
+{
+    return std::any_of(changes.moved.begin(), changes.moved.end(),
+                       [&](const LinkChanges::Moved& moved) {
+                           return moved.box.may_meet(ray.origin, ray.direction, ray.far, 0.0f) &&
+                                  moved.tree.transmittance(ray) != glm::vec3(1.0f);
+                       });
+}
+
 /// Adds the rays of lumel i.
 void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) const
 {
     const Lumel& lumel = work_.lumels()[i];
+    const auto width = std::uint32_t(work_.scene.lumels.width);
     const std::uint32_t rays = work_.is_buried(i) ? 0u : sending.rays[i];
-    const std::uint32_t own = PathSamples::hash(PathSamples::hash(seed_, sending.stream), i);
+    const std::uint32_t own =
+        PathSamples::hash(PathSamples::hash(seed_, sending.stream), lumel_key(lumel, width));
     std::optional<CosineDraw> shared;
-    if (sending.shared) {
-        const auto width = std::uint32_t(work_.scene.lumels.width);
+    if (sending.shared)
         shared.emplace(*sending.shared,
                        sending.shared->set(lumel.texel % width, lumel.texel / width));
-    }
+    const std::span<const LinkEnd> known =
+        sending.known ? sending.known->of(i, rays) : std::span<const LinkEnd>();
+    const bool is_cut = parts_.is_cut(i);
     for (std::uint32_t k = 0; k < rays; ++k) {
+        std::optional<LinkEnd> end;
+        if (!known.empty())
+            end = still(known[k], *sending.known);
+        const bool is_sky = end && end->number() == LinkNumbers::kSky;
+        if (end && !is_cut && !is_sky && sending.known->changes.moved.empty()) {
+            wave.ends.push_back(*end);
+            wave.from.push_back(0);
+            continue;
+        }
         const PathSamples samples(own, k);
         const RayOrigin start = work_.starts.start(i, samples.stratified(kOriginPair));
         std::uint32_t along = 0;
@@ -158,11 +200,19 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
             direction = frame_about(start.normal) * by_cosine(samples.stratified(kDirectionPair));
         }
         if (start.cosine(direction) > 0.0f) {
-            wave.of.push_back(std::uint32_t(wave.ends.size()));
-            wave.rays.push_back(ray_out(start.position, direction, samples.bits(kPassPair)));
-            wave.along.push_back(along);
+            const RaySpan ray = ray_out(start.position, direction, samples.bits(kPassPair));
+            if (end && may_meet_moved(ray, sending.known->changes))
+                end.reset();
+            if (!end) {
+                wave.of.push_back(std::uint32_t(wave.ends.size()));
+                wave.rays.push_back(ray);
+                wave.along.push_back(along);
+            } else if (is_sky) {
+                wave.sky.push_back({std::uint32_t(wave.ends.size()),
+                                    kPi * work_.sources.dim_sky(direction)});
+            }
         }
-        wave.ends.push_back(LinkEnd::of(LinkNumbers::kBelow));
+        wave.ends.push_back(end.value_or(LinkEnd::of(LinkNumbers::kBelow)));
         wave.from.push_back(std::uint8_t(start.cell));
     }
     wave.lumels.push_back(i);
@@ -192,6 +242,7 @@ void LinkTracer::cast_bundles(const SharedDirections& shared, std::vector<RayBat
 
 void LinkTracer::follow(RayBatch& wave) const
 {
+    wave.first_rays = std::uint32_t(wave.rays.size());
     for (int reflections = 0; !wave.rays.empty(); ++reflections) {
         const std::size_t count = wave.rays.size();
         wave.hits.resize(std::max(wave.hits.size(), count));
@@ -426,6 +477,10 @@ void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
                                        numbers_.is_part(path.end.number())
                                    ? path.end
                                    : LinkEnd::of(LinkNumbers::kNear);
+    const auto by_slot = [](const SkyRay& a, const SkyRay& b) { return a.slot < b.slot; };
+    if (!std::is_sorted(wave.sky.begin(), wave.sky.end(), by_slot))
+        std::sort(wave.sky.begin(), wave.sky.end(), by_slot);
+    into.rounds.back()[first / kLinkBlock].traced += wave.first_rays;
     auto sky = wave.sky.begin();
     auto path = wave.paths.begin();
     for (std::size_t n = 0; n < wave.lumels.size(); ++n) {

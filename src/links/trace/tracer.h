@@ -11,7 +11,8 @@
 #include "atlas/cells/cells.h"
 #include "atlas/cells/near_lumels.h"
 #include "links/direct/direct.h"
-#include "links/trace/link_table.h"
+#include "links/kept/link_changes.h"
+#include "links/kept/link_table.h"
 #include "links/trace/shared_directions.h"
 #include "rays/paths/samples.h"
 
@@ -30,11 +31,22 @@ public:
 
     std::size_t blocks() const { return (work_.order.size() + kLinkBlock - 1) / kLinkBlock; }
 
+    /// Ends that rays had in an earlier run.
+    struct Known {
+        const LinkChanges& changes;
+        const StoredLinks::Round& round;
+        const std::vector<std::size_t>& first_rays;  ///< of the round, see first_rays()
+        std::uint32_t solution;
+
+        /// Ends of a lumel's `rays` rays, or empty if all are to be traced.
+        std::span<const LinkEnd> of(std::size_t lumel, std::size_t rays) const;
+    };
     /// Rays to trace.
     struct Sending {
         const std::vector<std::uint16_t>& rays;  ///< [N]; powers of two stratify best
         std::uint32_t stream;                    ///< random stream
         const SharedDirections* shared;          ///< null: every lumel has its own directions
+        std::optional<Known> known = {};         ///< traces only what can have changed
     };
     /// Traces blocks [first, last) into the last round of `into`.
     void trace(std::size_t first, std::size_t last, const Sending& sending, LinkTable& into) const;
@@ -47,6 +59,8 @@ private:
     struct RayBatch;
 
     void add(std::uint32_t lumel, const Sending& sending, RayBatch& wave) const;
+    std::optional<LinkEnd> still(LinkEnd stored, const Known& known) const;
+    static bool may_meet_moved(const RaySpan& ray, const LinkChanges& changes);
     void cast_bundles(const SharedDirections& shared, std::vector<RayBatch>& waves) const;
     void follow(RayBatch& wave) const;
     Landing land(const RaySpan& ray, const RayHit& hit, float size) const;
@@ -66,6 +80,7 @@ private:
     const LinkWork& work_;
     const SubLumels& parts_;
     const LinkNumbers& numbers_;
+    const LinkNumbers stored_;  ///< with lumels in place of sub-lumels
     const DirectEstimator& direct_;
     NearLumels hits_;
     std::uint32_t seed_;

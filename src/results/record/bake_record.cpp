@@ -17,7 +17,7 @@ constexpr Limits kSides{0.0, 65536.0};  // [texels]
 constexpr Limits kPages{1.0, kMaxPages};
 constexpr Limits kDensities{0.0, 1e9};  // [1/m]
 constexpr Limits kCounts{0.0, 1e15};
-constexpr int kMaxStoredLinks = 256;  // stored rays per lumel
+constexpr int kMaxStoredLinks = 1 << 24;  // rays per lumel
 constexpr Limits kErrors{0.0, std::numeric_limits<double>::max()};
 
 template <class Options, class Visit>
@@ -64,12 +64,18 @@ void write_kept_links(const BakeRecord& record, Json& settings)
 {
     if (record.keep_links > 0)
         settings["keep-links"] = record.keep_links;
+    if (const auto* links = std::get_if<LinksOptions>(&record.solver.method);
+        links && links->even_rays > 0)
+        settings["links"] = links->even_rays;
 }
 
 void read_kept_links(const JsonView& settings, BakeRecord& record)
 {
     if (const auto rays = settings.find("keep-links"))
         record.keep_links = std::uint32_t(rays->integer(1, kMaxStoredLinks));
+    auto* links = std::get_if<LinksOptions>(&record.solver.method);
+    if (const auto rays = settings.find("links"); rays && links)
+        links->even_rays = std::uint32_t(rays->integer(1, kMaxStoredLinks));
 }
 
 template <class Record, class Visit>
@@ -144,9 +150,9 @@ BakeRecord record_of(const JsonView& report, const std::string& folder)
     record.scene_hash = report.get("scene").get("hash").string();
     each_setting(record, FieldReader(report.get("settings")));
     read_densities(report.get("settings"), record.atlas);
-    read_kept_links(report.get("settings"), record);
     record.lights = light_options_of(report.get("lights"), folder);
     record.solver = solver_options_of(report.get("solver"));
+    read_kept_links(report.get("settings"), record);
 
     const FieldReader size(report.get("sizes"));
     int side = 0;

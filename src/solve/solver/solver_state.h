@@ -14,6 +14,7 @@ struct SolverState {
     /// unknown.
     double dark_error = -1.0;
     bool full = false;   ///< memory is exhausted: further steps change nothing
+    bool ended = false;  ///< nothing is left to do: further steps change nothing
     double begun = 0.0;  ///< progress to the first estimate, 0…1, if known
 };
 

@@ -1,4 +1,4 @@
-#include "links/trace/link_table.h"
+#include "links/kept/link_table.h"
 
 #include <algorithm>
 
@@ -44,7 +44,7 @@ LinkNumbers::LinkNumbers(std::size_t instances, std::size_t parts)
     : first_part_(std::uint32_t(kFirst + 2 * instances)),
       count_(std::uint32_t(first_part_ + parts))
 {
-    if (kFirst + 2 * instances + parts > LinkEnd::kMaxNumber)
+    if (!fit(instances, parts))
         throw Error(ErrorKind::input, std::to_string(parts) + " lumels",
                     "are more than links can number; use a smaller --size");
 }

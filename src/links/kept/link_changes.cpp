@@ -1,6 +1,7 @@
-#include "links/live/link_changes.h"
+#include "links/kept/link_changes.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "atlas/cells/near_lumels.h"
 #include "base/core/fingerprint.h"
@@ -51,7 +52,7 @@ void add_triangles(Fingerprint& print, const Primitive& primitive)
 
 /// Marks the lumels near a changed one on its instance, whose hits may now be looked up otherwise.
 void mark_around(const Lumels& lumels, const std::vector<std::uint32_t>& by_side,
-                 const Lumel& changed, std::vector<char>& ends)
+                 const Lumel& changed, std::vector<char>& lumels_hit)
 {
     const int width = lumels.width, height = lumels.height;
     const int x0 = int(changed.texel) % width, y0 = int(changed.texel) / width;
@@ -61,16 +62,27 @@ void mark_around(const Lumels& lumels, const std::vector<std::uint32_t>& by_side
                 const std::size_t texel = std::size_t(y) * std::size_t(width) + std::size_t(x);
                 const std::uint32_t i = by_side[2 * texel + side];
                 if (i != kNoLumel && lumels.lumels[i].instance == changed.instance)
-                    ends[i] = 1;
+                    lumels_hit[i] = 1;
             }
 }
 
-bool fits(const StoredLinks& kept, const LinkContext& place, std::uint32_t rays, std::uint32_t seed)
+/// Marks the lumels close to a box, which can be cut otherwise with and without what is in it.
+void mark_close(const WorldLumels& world, const Box& box, std::vector<char>& lumels_hit)
 {
-    return kept.rays == rays && kept.seed == seed && kept.ray_offset == place.rays.ray_offset() &&
-           kept.side == std::uint32_t(place.scene.lumels.width) &&
-           kept.lumels.size() == place.lumels().size() &&
-           kept.instances.size() == place.scene.scene.instances.size();
+    constexpr float kReach = 2.0f;  // sizes: a lumel is at most √2 wide, rays just above it
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        const float reach = kReach * world[i].size;
+        if (box.distance2(world[i].centre) <= reach * reach)
+            lumels_hit[i] = 1;
+    }
+}
+
+bool fits(const StoredLinks& kept, const SolveScene& scene, std::uint32_t seed)
+{
+    return kept.seed == seed && kept.ray_offset == scene.rays.ray_offset() &&
+           kept.side == std::uint32_t(scene.lumels.width) &&
+           kept.lumels.size() == scene.lumels.lumels.size() &&
+           kept.instances.size() == scene.scene.instances.size();
 }
 
 }  // namespace
@@ -111,38 +123,60 @@ std::vector<std::uint64_t> instance_hashes(const Scene& scene)
     return prints;
 }
 
-LinkChanges changes_since(const StoredLinks& kept, const LinkContext& place, std::uint32_t rays,
-                          std::uint32_t seed)
+std::vector<Box> instance_boxes(const Scene& scene)
+{
+    std::vector<Box> boxes;
+    for (const Instance& instance : scene.instances) {
+        Box box{glm::vec3(std::numeric_limits<float>::max()),
+                glm::vec3(std::numeric_limits<float>::lowest())};
+        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
+            for (const glm::vec3& position : primitive.positions) {
+                const glm::vec3 at(instance.transform * glm::vec4(position, 1.0f));
+                box = {glm::min(box.low, at), glm::max(box.high, at)};
+            }
+        boxes.push_back(box);
+    }
+    return boxes;
+}
+
+LinkChanges changes_since(const StoredLinks& kept, const SolveScene& scene,
+                          const WorldLumels& world, std::uint32_t seed)
 {
     LinkChanges changes;
-    if (!fits(kept, place, rays, seed))
+    if (!fits(kept, scene, seed))
         return changes;
-    const std::vector<Lumel>& lumels = place.lumels();
-    const std::vector<std::uint64_t> prints = lumel_hashes(place.world, place.scene.lumels);
-    const std::vector<std::uint64_t> instances = instance_hashes(place.scene.scene);
-    const std::size_t lost = lumels.size() + 2;  // absorbed on an instance
+    const std::vector<Lumel>& lumels = scene.lumels.lumels;
+    const std::vector<std::uint64_t> prints = lumel_hashes(world, scene.lumels);
+    const std::vector<std::uint64_t> instances = instance_hashes(scene.scene);
+    const LinkNumbers numbers = kept.numbers();
     changes.starts.resize(lumels.size());
-    changes.ends.resize(kept.gone() + 1);
-    changes.ends[kept.gone()] = 1;
+    changes.ends.resize(numbers.count());
+    std::vector<char> lumels_hit(lumels.size(), 0);
+    for (const Box& box : kept.gone)
+        mark_close(world, box, lumels_hit);
     for (std::uint32_t i = 0; i < instances.size(); ++i)
         if (instances[i] != kept.instances[i]) {
-            changes.ends[lost + i] = 1;
-            RayScene tree(place.scene.scene, std::span(&i, 1));
+            changes.ends[numbers.black_on(i)] = changes.ends[numbers.lost_on(i)] = 1;
+            RayScene tree(scene.scene, std::span(&i, 1));
             const Box box{tree.low(), tree.high()};
+            mark_close(world, box, lumels_hit);
+            mark_close(world, kept.boxes[i], lumels_hit);
             changes.moved.push_back({std::move(tree), box});
         }
-    const std::vector<std::uint32_t> by_side = lumels_by_side(place.scene.lumels);
+    const std::vector<std::uint32_t> by_side = lumels_by_side(scene.lumels);
     std::size_t starts = 0;
     for (std::size_t i = 0; i < lumels.size(); ++i) {
         const std::uint32_t instance = lumels[i].instance;
         if (prints[i] != kept.lumels[i]) {
             ++starts;
-            changes.starts[i] = changes.ends[lost + instance] = 1;
-            mark_around(place.scene.lumels, by_side, lumels[i], changes.ends);
+            changes.starts[i] = 1;
+            changes.ends[numbers.black_on(instance)] = changes.ends[numbers.lost_on(instance)] = 1;
+            mark_around(scene.lumels, by_side, lumels[i], lumels_hit);
         }
         if (instances[instance] != kept.instances[instance])
-            changes.ends[i] = 1;
+            lumels_hit[i] = 1;
     }
+    std::copy(lumels_hit.begin(), lumels_hit.end(), changes.ends.begin() + numbers.of_part(0));
     changes.all =
         changes.moved.size() > kMaxMoved || double(starts) > kMaxStarts * double(lumels.size());
     return changes;

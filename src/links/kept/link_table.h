@@ -37,9 +37,13 @@ public:
     static constexpr std::uint32_t kSky = 1;
     static constexpr std::uint32_t kNear = 2;  ///< the NearLink of this ray has the end
 
-    /// Throws Error{input} if there are more than kMaxNumber.
+    /// Throws Error{input} unless they fit.
     LinkNumbers(std::size_t instances, std::size_t parts);
 
+    static bool fit(std::size_t instances, std::size_t parts)
+    {
+        return kFirst + 2 * instances + parts <= LinkEnd::kMaxNumber;
+    }
     /// Absorbed by the back of a single-sided surface.
     std::uint32_t black_on(std::uint32_t instance) const { return kFirst + 2 * instance; }
     /// Hit an instance where it has no lumel: the ray does not count.
@@ -80,11 +84,12 @@ struct LinkBlock {
     std::vector<LinkEnd> ends;        ///< [slots]
     std::vector<std::uint8_t> from;   ///< cells that the rays of cut lumels leave, in order
     std::vector<NearLink> near;       ///< by slot
+    std::uint64_t traced = 0;         ///< rays; the ends of others were known
 
     template <class Archive>
     void state(Archive& archive)
     {
-        archive(rays, ends, from, near);
+        archive(rays, ends, from, near, traced);
     }
 };
 

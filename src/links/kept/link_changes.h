@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "atlas/near/world_lumels.h"
+#include "atlas/prepare/solve_scene.h"
 #include "base/core/box.h"
 #include "links/kept/stored_links.h"
-#include "links/live/link_context.h"
 #include "rays/cast/ray_scene.h"
 
 namespace lumel {
@@ -16,6 +17,9 @@ std::vector<std::uint64_t> lumel_hashes(const WorldLumels& world, const Lumels& 
 
 /// [I] Hash of each instance's world-space triangles and transmission.
 std::vector<std::uint64_t> instance_hashes(const Scene& scene);
+
+/// [I] Bounds of each instance [m].
+std::vector<Box> instance_boxes(const Scene& scene);
 
 /// Changes of a scene since its links were stored.
 struct LinkChanges {
@@ -27,10 +31,10 @@ struct LinkChanges {
 
     bool all = true;           ///< nothing is reusable: the rest is empty
     std::vector<char> starts;  ///< [N] the lumel's ray origins changed
-    std::vector<char> ends;    ///< [ends] links with this end can change
+    std::vector<char> ends;    ///< [numbers of StoredLinks] links with this end can change
     std::vector<Moved> moved;  ///< links can now hit these
 };
-LinkChanges changes_since(const StoredLinks& kept, const LinkContext& place, std::uint32_t rays,
-                          std::uint32_t seed);
+LinkChanges changes_since(const StoredLinks& kept, const SolveScene& scene,
+                          const WorldLumels& world, std::uint32_t seed);
 
 }  // namespace lumel
