@@ -26,7 +26,7 @@
 namespace lumel::test {
 namespace {
 
-constexpr std::uint32_t kKeptRays = 64;
+constexpr std::uint32_t kLiveRays = 64;
 
 struct Row {
     const char* name;
@@ -54,7 +54,7 @@ BakeOptions bake_options(const MethodOptions& method)
 BakeOptions kept_links()
 {
     BakeOptions options = bake_options(LinksOptions{});
-    options.keep_links = kKeptRays;
+    options.keep_links = true;
     return options;
 }
 
@@ -115,7 +115,7 @@ auto live_links(const std::function<void(LiveLinks&)>& edit)
 {
     return [edit](const RoomFiles& files) {
         LiveLinks live(lay_out(read_gltf(files.path(Room::given)), {.size = kSide}, {kBlock}),
-                       {.rays = kKeptRays, .things = {kBlock}});
+                       {.rays = kLiveRays, .things = {kBlock}});
         live.settle();
         edit(live);
         live.settle();
@@ -193,8 +193,7 @@ std::vector<Row> rows()
         {"bake_by_queries", "bake: links, rays by queries of the device", Room::given, links,
          baked(Rays::query), Row::Needs::ray_queries},
         {"bake_by_drawings", "bake: links, rays drawn", Room::given, links, baked(Rays::raster)},
-        {"bake_by_kept_links", "bake: links kept, 64 of a lumel", Room::given, kept,
-         baked(kept_links())},
+        {"bake_by_kept_links", "bake: links kept", Room::given, kept, baked(kept_links())},
         {"bake_by_stochastic",
          "bake: stochastic shooting",
          Room::given,

@@ -136,8 +136,8 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
                 continue;
             const CellPoints points = cell_points(world, cells, i);
             const float ray_offset = std::max(kAboveCell * world[i].size, rays.ray_offset());
-            const std::uint32_t own = PathSamples::hash(
-                seed, lumel_key(lumels.lumels[i], std::uint32_t(lumels.width)));
+            const std::uint32_t own =
+                PathSamples::hash(seed, lumel_key(lumels.lumels[i], std::uint32_t(lumels.width)));
             Joined joined;
             join_along(points, 1, 0, ray_offset, rays, own, joined);
             join_along(points, 0, 1, ray_offset, rays, own, joined);

@@ -114,9 +114,8 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     if (solution->relightable)
         write_relightable(output->path(kMatrixFile), *solution->relightable);
     if (options.keep_links)
-        write_links(output->path(kLinksFile),
-                    dynamic_cast<const LinkRadiosity&>(*solution->solver)
-                        .kept(setting.prepared.scene.hash));
+        write_links(output->path(kLinksFile), dynamic_cast<const LinkRadiosity&>(*solution->solver)
+                                                  .kept(setting.prepared.scene.hash));
     return write_bake(*output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, stages);
 }

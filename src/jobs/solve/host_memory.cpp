@@ -136,8 +136,8 @@ std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool
             ? sizes.preview.host + (shared ? sizes.preview.device + kCompilerBytes : 0)
             : 0;
     const std::uint64_t writing = sizes.picture + writing_bytes(sizes, layers);
-    return std::max({solving, maps + std::max({sizes.finish, drawing, writing}),
-                     kept_bytes(sizes, options)});
+    return std::max(
+        {solving, maps + std::max({sizes.finish, drawing, writing}), kept_bytes(sizes, options)});
 }
 
 void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& options)

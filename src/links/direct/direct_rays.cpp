@@ -18,7 +18,7 @@ constexpr std::uint64_t kMaxMore = 4;
 /// without end.
 constexpr std::uint64_t kMaxDirectRays = 2048;
 /// Random stream of these rays.
-constexpr std::uint32_t kDirectStream = 2;
+constexpr std::uint32_t kDirectRaysStream = 2;
 
 std::vector<std::uint32_t> as_they_come(const WorldLumels& world)
 {
@@ -36,7 +36,7 @@ DirectRays::DirectRays(const SolveScene& scene, std::uint32_t seed, double targe
       known_(irradiance_sum(known)),
       work_(scene, {cast_on_host(scene.rays)}, SampleRule::area, as_they_come,
             {.lamps = false, .sky = false, .instances = instances}),
-      finder_(work_, PathSamples::hash(seed, kDirectStream))
+      finder_(work_, PathSamples::hash(seed, kDirectRaysStream))
 {
 }
 

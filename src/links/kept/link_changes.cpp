@@ -69,9 +69,9 @@ void mark_around(const Lumels& lumels, const std::vector<std::uint32_t>& by_side
 /// Marks the lumels close to a box, which can be cut otherwise with and without what is in it.
 void mark_close(const WorldLumels& world, const Box& box, std::vector<char>& lumels_hit)
 {
-    constexpr float kReach = 2.0f;  // sizes: a lumel is at most √2 wide, rays just above it
+    constexpr float kCloseReach = 2.0f;  // sizes: a lumel is at most √2 wide, rays just above it
     for (std::size_t i = 0; i < world.size(); ++i) {
-        const float reach = kReach * world[i].size;
+        const float reach = kCloseReach * world[i].size;
         if (box.distance2(world[i].centre) <= reach * reach)
             lumels_hit[i] = 1;
     }

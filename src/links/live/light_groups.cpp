@@ -180,8 +180,8 @@ glm::vec3 LightGroups::light_of(const Group& group, std::size_t i) const
     if (place_.is_buried(i))
         return sum;
     for (const std::uint32_t s : group.senders)
-        sum += (group.is_shared() ? senders_[s].factor : glm::vec3(1.0f)) *
-               light_of(senders_[s], i);
+        sum +=
+            (group.is_shared() ? senders_[s].factor : glm::vec3(1.0f)) * light_of(senders_[s], i);
     return sum;
 }
 
@@ -215,8 +215,7 @@ glm::vec3 LightGroups::transmittance(const RayOrigin& start, const SourceSample&
 }
 
 /// A few rays, and many if they see part of the source.
-glm::vec3 LightGroups::by_one(std::uint32_t source, std::uint32_t stream,
-                                       std::size_t i) const
+glm::vec3 LightGroups::by_one(std::uint32_t source, std::uint32_t stream, std::size_t i) const
 {
     SourceEstimate found;
     for (std::uint32_t k = 0; k < options_.many_rays; ++k) {
@@ -232,8 +231,7 @@ glm::vec3 LightGroups::by_one(std::uint32_t source, std::uint32_t stream,
 }
 
 /// Each ray goes to a source selected by sampling weight.
-glm::vec3 LightGroups::by_many(const Emitter& sender, std::uint32_t stream,
-                                        std::size_t i) const
+glm::vec3 LightGroups::by_many(const Emitter& sender, std::uint32_t stream, std::size_t i) const
 {
     std::vector<float> running(sender.sources.size());
     float total = 0.0f;

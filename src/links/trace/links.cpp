@@ -35,7 +35,7 @@ namespace {
 /// Rays per lumel in each solution of the first round; powers of two stratify best.
 constexpr std::uint32_t kFirstRays = 8;
 /// Minimum and maximum rays of a later round, relative to the rays so far.
-constexpr double kMinMore = 0.4, kMaxMore = 3.0;
+constexpr double kMinAdded = 0.4, kMaxAdded = 3.0;
 /// Rays allocated by deviation reduce the variance like 1 / kAdaptiveGain as many uniform ones.
 constexpr double kAdaptiveGain = 0.6;
 constexpr std::uint32_t kMaxLinks = 4096;
@@ -159,7 +159,7 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
     constexpr double kFirst = kSolutions * kFirstRays;
     const double rays = shots > 0 ? std::min(double(shots), kLikelyRays) : kLikelyRays;
     double rounds = 1.0;
-    for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinMore)
+    for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinAdded)
         ++rounds;
     return std::uint64_t(double(lumels) * (rays * kLinkBytes + rounds * kSolutions * kRowBytes));
 }
@@ -227,8 +227,8 @@ void LinkRadiosity::step()
 template <class Archive>
 void LinkRadiosity::state(Archive& archive)
 {
-    archive(*direct_, round_, mean_rays_, means_, rays_, traced_, mean_.light, mean_.noise, mean_.wrong,
-            mean_light_, all_, dark_, state_, times_);
+    archive(*direct_, round_, mean_rays_, means_, rays_, traced_, mean_.light, mean_.noise,
+            mean_.wrong, mean_light_, all_, dark_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
         archive(*links_[k], received_[k]);
 }
@@ -364,11 +364,11 @@ void LinkRadiosity::begin_round()
         begin_known_round();
         return;
     }
-    mean_rays_ = state_.shots > 0          ? more_rays()
+    mean_rays_ = state_.shots > 0         ? more_rays()
                  : options_.even_rays > 0 ? double(options_.even_rays) / double(kSolutions)
-                                           : kFirstRays;
+                                          : kFirstRays;
     const double fit = rays_that_fit();
-    if (state_.shots > 0 && fit < kMinMore * double(state_.shots) / double(kSolutions)) {
+    if (state_.shots > 0 && fit < kMinAdded * double(state_.shots) / double(kSolutions)) {
         state_.full = true;
         stage_ = Stage::direct;  // without work
         return;
@@ -392,8 +392,8 @@ double LinkRadiosity::more_rays() const
             const double left = square - std::min(one.now.direct, kMaxShare * square);
             ratio = std::max(ratio, one.now.rays / left);
         }
-        more = std::clamp(kAdaptiveGain * so_far * (ratio - 1.0), kMinMore * so_far,
-                          kMaxMore * so_far);
+        more = std::clamp(kAdaptiveGain * so_far * (ratio - 1.0), kMinAdded * so_far,
+                          kMaxAdded * so_far);
     }
     return std::min(more, double(kMaxLinks));
 }
@@ -473,8 +473,7 @@ StoredLinks LinkRadiosity::kept(const std::string& hash) const
         round.mean = means_[r];
         round.rays.resize(work_.order.size());
         for (std::size_t o = 0; o < work_.order.size(); ++o)
-            round.rays[work_.order[o]] =
-                links_[0]->rounds[r][o / kLinkBlock].rays[o % kLinkBlock];
+            round.rays[work_.order[o]] = links_[0]->rounds[r][o / kLinkBlock].rays[o % kLinkBlock];
         const std::vector<std::size_t> first = first_rays(round.rays);
         for (std::uint32_t k = 0; k < kSolutions; ++k) {
             round.ends[k].resize(first.back());

@@ -86,7 +86,7 @@ struct LinkTracer::RayBatch {
     std::vector<LinkEnd> ends;                ///< [slots]
     std::vector<std::uint8_t> from;           ///< [slots] cells that the rays leave
     std::vector<SkyRay> sky;
-    std::vector<Path> paths;                  ///< by slot
+    std::vector<Path> paths;  ///< by slot
 
     // Rays that have not ended.
     std::vector<RaySpan> rays;
@@ -208,8 +208,8 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
                 wave.rays.push_back(ray);
                 wave.along.push_back(along);
             } else if (is_sky) {
-                wave.sky.push_back({std::uint32_t(wave.ends.size()),
-                                    kPi * work_.sources.dim_sky(direction)});
+                wave.sky.push_back(
+                    {std::uint32_t(wave.ends.size()), kPi * work_.sources.dim_sky(direction)});
             }
         }
         wave.ends.push_back(end.value_or(LinkEnd::of(LinkNumbers::kBelow)));

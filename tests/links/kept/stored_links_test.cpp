@@ -10,12 +10,12 @@
 
 #include "../../support/source_folder.h"
 #include "../../support/temporary_folder.h"
+#include "../live/open_box.h"
 #include "atlas/prepare/solve_scene.h"
 #include "base/core/error.h"
 #include "base/core/fingerprint.h"
 #include "links/kept/links_file.h"
-#include "links/live/link_relighter.h"
-#include "open_box.h"
+#include "links/trace/links.h"
 
 namespace lumel {
 namespace {
@@ -31,30 +31,56 @@ Scene with_block_moved(Scene scene)
     return scene;
 }
 
+/// Rays per lumel: few, as links are compared one by one.
+constexpr LinksOptions kOptions{.seed = 1, .even_rays = 24};
+
 /// A scene and its light, over links of a former run or its own.
 struct Lit {
     explicit Lit(Scene scene, const StoredLinks* kept = nullptr)
         : prepared(std::move(scene), AtlasOptions{.size = kSide}),
-          light(prepared, {.rays = 16, .seed = 1}, kept)
+          light(prepared, kOptions, {})
     {
+        solve(kept);
     }
     /// In the atlas of another.
     Lit(Scene scene, const Lit& other, const StoredLinks* kept)
         : prepared(std::move(scene), [&](const Scene&, const RayScene&,
                                          const ProgressCallback&) { return other.prepared.atlas; }),
-          light(prepared, {.rays = 16, .seed = 1}, kept)
+          light(prepared, kOptions, {})
     {
+        solve(kept);
     }
+    void solve(const StoredLinks* kept)
+    {
+        if (kept)
+            light.use(*kept, LinkRadiosity::Then::end);
+        while (!light.state().ended)
+            light.step();
+    }
+    StoredLinks kept() const { return light.kept("hash"); }
+
     SolveScene prepared;
-    LinkRelighter light;
+    LinkRadiosity light;
 };
 
-std::size_t different_links(const Lit& one, const Lit& other)
+std::size_t different_links(const StoredLinks& one, const StoredLinks& other)
 {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < one.prepared.lumels.lumels.size(); ++i)
-        for (std::uint32_t k = 0; k < one.light.links().rays(); ++k)
-            count += one.light.links().of(i)[k] != other.light.links().of(i)[k];
+    for (std::size_t r = 0; r < one.rounds.size(); ++r)
+        for (std::size_t k = 0; k < kSolutions; ++k)
+            for (std::size_t n = 0; n < one.rounds[r].ends[k].size(); ++n)
+                count += one.rounds[r].ends[k][n] != other.rounds[r].ends[k][n] ? 1 : 0;
+    return count;
+}
+
+/// Rays whose end is not stored: their first hit is near.
+std::size_t near_links(const StoredLinks& links)
+{
+    std::size_t count = 0;
+    for (const StoredLinks::Round& round : links.rounds)
+        for (const std::vector<LinkEnd>& ends : round.ends)
+            for (const LinkEnd end : ends)
+                count += end.number() == LinkNumbers::kNear ? 1 : 0;
     return count;
 }
 
@@ -68,8 +94,7 @@ StoredLinks through_a_file(const StoredLinks& kept)
 
 TEST(KeptLight, OfOtherLampsAndSkyOverLinksFromAFileIsThatOfANewTracing)
 {
-    const Lit before(test::open_box());
-    const StoredLinks kept = through_a_file(before.light.kept("hash"));
+    const StoredLinks kept = through_a_file(Lit(test::open_box()).kept());
     Scene scene = test::open_box();
     scene.lights[0].transform[3] = glm::vec4(0.4f, 0.45f, 0.1f, 1.0f);
     for (glm::vec3& radiance : scene.sky.radiance)
@@ -77,47 +102,62 @@ TEST(KeptLight, OfOtherLampsAndSkyOverLinksFromAFileIsThatOfANewTracing)
     for (Material& material : scene.materials)
         material.emitted *= 0.4f;
     Lit over(scene, &kept), anew(scene);
-    EXPECT_EQ(over.light.links().traced().all(), 0u);
-    EXPECT_EQ(different_links(over, anew), 0u);
-    const Lights light = over.light.irradiance();
-    EXPECT_EQ(light, anew.light.irradiance());
-    EXPECT_EQ(light, over.light.irradiance()) << "whatever was lit before";
+    EXPECT_EQ(over.light.traced(), near_links(kept));
+    EXPECT_LT(over.light.traced(), anew.light.traced() / 4);
+    EXPECT_EQ(different_links(over.kept(), anew.kept()), 0u);
+    EXPECT_EQ(over.light.irradiance(), anew.light.irradiance());
+    EXPECT_EQ(over.light.state().error, anew.light.state().error);
+}
+
+TEST(KeptLight, ThroughColouredGlassIsThatOfANewTracing)
+{
+    Scene scene = test::open_box();
+    const std::uint32_t block = find_instance(scene, "tall block");
+    for (const Primitive& primitive :
+         scene.meshes[std::size_t(scene.instances[block].mesh)].primitives) {
+        Material& glass = scene.materials[std::size_t(primitive.material)];
+        glass.transmission = 0.9f;
+        glass.base_color = glm::vec4(0.4f, 0.9f, 0.6f, 1.0f);
+    }
+    const StoredLinks kept = Lit(scene).kept();
+    scene.lights[0].color = glm::vec3(0.2f, 0.5f, 1.0f);
+    Lit over(scene, &kept), anew(scene);
+    EXPECT_EQ(over.light.irradiance(), anew.light.irradiance());
 }
 
 TEST(KeptLight, OfAThingThatMovedTracesFewLinksAndIsThatOfANewTracing)
 {
     const Lit before(test::open_box());
-    const StoredLinks kept = before.light.kept("hash");
+    const StoredLinks kept = before.kept();
     const Scene scene = with_block_moved(test::open_box());
     Lit over(scene, before, &kept), anew(scene, before, nullptr);
     ASSERT_EQ(over.prepared.lumels.lumels.size(), kept.lumels.size());
-    const Retraced& traced = over.light.links().traced();
-    EXPECT_GT(traced.started, 0u);
-    EXPECT_GT(traced.ended, 0u);
-    EXPECT_GT(traced.crossed, 0u);
-    EXPECT_LT(traced.all(), kept.links.size() / 3);
-    EXPECT_GT(different_links(before, anew), 0u);
-    EXPECT_EQ(different_links(over, anew), 0u);
+    EXPECT_GT(over.light.traced(), near_links(kept));
+    EXPECT_LT(over.light.traced(), anew.light.traced() / 2);
+    EXPECT_GT(different_links(kept, anew.kept()), 0u);
+    EXPECT_EQ(different_links(over.kept(), anew.kept()), 0u);
     EXPECT_EQ(over.light.irradiance(), anew.light.irradiance());
 }
 
 TEST(KeptLight, OverLinksOfAnotherSeedTracesAllOfThem)
 {
-    const Lit before(test::open_box());
-    StoredLinks kept = before.light.kept("hash");
+    StoredLinks kept = Lit(test::open_box()).kept();
     kept.seed = 2;
     const Lit over(test::open_box(), &kept);
-    EXPECT_EQ(over.light.links().traced().all(), kept.links.size());
+    EXPECT_EQ(over.light.traced(), Lit(test::open_box()).light.traced());
 }
 
 TEST(KeptLinks, ComeBackFromAFileAsTheyWere)
 {
-    const StoredLinks kept = Lit(test::open_box()).light.kept("hash"), read = through_a_file(kept);
+    const StoredLinks kept = Lit(test::open_box()).kept(), read = through_a_file(kept);
     EXPECT_EQ(read.scene_hash, "hash");
-    EXPECT_EQ(read.rays, kept.rays);
+    EXPECT_EQ(read.seed, kept.seed);
+    EXPECT_EQ(read.shots(), 24u);
     EXPECT_EQ(read.lumels, kept.lumels);
     EXPECT_EQ(read.instances, kept.instances);
-    EXPECT_EQ(read.links, kept.links);
+    ASSERT_EQ(read.rounds.size(), 1u);
+    EXPECT_EQ(read.rounds[0].rays, kept.rounds[0].rays);
+    EXPECT_EQ(read.rounds[0].ends, kept.rounds[0].ends);
     ASSERT_EQ(read.sheets.size(), kept.sheets.size());
     for (std::size_t s = 0; s < kept.sheets.size(); ++s)
         EXPECT_EQ(read.sheets[s].texcoord, kept.sheets[s].texcoord);
@@ -128,11 +168,11 @@ TEST(KeptLinks, FromADamagedFileAreRefused)
     const test::TemporaryFolder folder;
     const std::string path = folder / "scene.lumellinks";
     EXPECT_THROW(read_links(path), Error);
-    StoredLinks kept = Lit(test::open_box()).light.kept("hash");
-    kept.links[5] = std::uint32_t(kept.ends());  // beyond the last
+    StoredLinks kept = Lit(test::open_box()).kept();
+    kept.rounds[0].ends[1][5] = LinkEnd::of(kept.numbers().count());  // beyond the last
     write_links(path, kept);
     EXPECT_THROW(read_links(path), Error);
-    kept.links[5] = 0;
+    kept.rounds[0].ends[1][5] = LinkEnd::of(LinkNumbers::kSky);
     write_links(path, kept);
     read_links(path);
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
@@ -149,16 +189,19 @@ TEST(KeptLinks, ForgedAreRefusedOrSound)
     const test::TemporaryFolder folder;
     const std::string path = folder / "scene.lumellinks";
     StoredLinks kept{.scene_hash = "hash",
-                     .rays = 4,
                      .ray_offset = 0.1f,
                      .lumels = {1, 2, 3},
                      .instances = {4},
-                     .links = {0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5}};
+                     .boxes = {Box{}}};
+    kept.rounds = {{.mean = 1.0, .rays = {1, 0, 2}}};
+    for (std::vector<LinkEnd>& ends : kept.rounds[0].ends)
+        ends = {LinkEnd::of(LinkNumbers::kSky), LinkEnd::of(kept.numbers().of_part(1), 15),
+                LinkEnd::of(LinkNumbers::kNear)};
     kept.sheets = {{.texcoord = {{0, 0}, {1, 0}, {0, 1}}, .chart = {0}}};
     kept.side = 8;
     kept.charts = 1;
     write_links(path, kept);
-    EXPECT_EQ(read_links(path).links, kept.links);
+    EXPECT_EQ(read_links(path).rounds[0].ends, kept.rounds[0].ends);
     std::ifstream file(path, std::ios::binary);
     const std::string given{std::istreambuf_iterator<char>(file), {}};
     std::size_t refused = 0, tried = 0;
@@ -174,9 +217,12 @@ TEST(KeptLinks, ForgedAreRefusedOrSound)
             ++tried;
             try {
                 const StoredLinks read = read_links(path);
-                EXPECT_EQ(read.links.size(), read.lumels.size() * read.rays);
-                for (const std::uint32_t link : read.links)
-                    EXPECT_LT(link, read.ends());
+                for (const StoredLinks::Round& round : read.rounds)
+                    for (const std::vector<LinkEnd>& ends : round.ends) {
+                        EXPECT_EQ(ends.size(), first_rays(round.rays).back());
+                        for (const LinkEnd end : ends)
+                            EXPECT_LT(end.number(), read.numbers().count());
+                    }
             } catch (const Error& error) {
                 EXPECT_EQ(error.kind(), ErrorKind::input);
                 ++refused;
