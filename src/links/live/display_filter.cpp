@@ -242,24 +242,18 @@ float DisplayFilter::noise_left(std::uint32_t i, const Tile& of) const
 }
 
 /// Requires weights.
-template <class Light>
-glm::vec3 DisplayFilter::mixed(const Light& light, std::size_t i) const
-{
-    const Place place = places_[i];
-    const Tile& tile = tiles_[place.tile];
-    glm::vec3 sum = light(i);
-    float weights = 1.0f;
-    for (std::uint32_t w = tile.first[place.number]; w < tile.first[place.number + 1]; ++w) {
-        sum += tile.weights[w].weight * light(tile.weights[w].lumel);
-        weights += tile.weights[w].weight;
-    }
-    return sum / weights;
-}
-
 glm::vec3 DisplayFilter::filtered(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
                                   std::size_t i) const
 {
-    return mixed([&](std::size_t j) { return by_rays(sweeps, sky, j); }, i);
+    const Place place = places_[i];
+    const Tile& tile = tiles_[place.tile];
+    glm::vec3 sum = by_rays(sweeps, sky, i);
+    float weights = 1.0f;
+    for (std::uint32_t w = tile.first[place.number]; w < tile.first[place.number + 1]; ++w) {
+        sum += tile.weights[w].weight * by_rays(sweeps, sky, tile.weights[w].lumel);
+        weights += tile.weights[w].weight;
+    }
+    return sum / weights;
 }
 
 glm::vec3 DisplayFilter::irradiance(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,

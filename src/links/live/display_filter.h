@@ -60,8 +60,6 @@ private:
     void fill(const Tile& of, FilterTile& tile) const;
     void find_noise(FilterTile& tile);
     void weigh(Tile& of, FilterTile& tile);
-    template <class Light>
-    glm::vec3 mixed(const Light& light, std::size_t lumel) const;
     float noise_left(std::uint32_t lumel, const Tile& of) const;
     template <class Work>
     bool do_tiles(const Work& work);
