@@ -125,13 +125,14 @@ CellPoints cell_points(const WorldLumels& world, const Cells& cells, std::size_t
 }
 
 SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScene& rays,
-                     const Lumels& lumels, std::uint32_t seed)
-    : first_(world.size() + 1, 0),
+                     const Lumels& lumels, const std::vector<std::uint32_t>& order,
+                     std::uint32_t seed)
+    : first_(world.size(), 0),
+      parts_(world.size(), 1),
       code_(world.size(), 0)
 {
     parallel_for(world.size(), kCellsPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            first_[i + 1] = 1;
             if (lumels.lumels[i].flags & kLumelBuried)
                 continue;
             const CellPoints points = cell_points(world, cells, i);
@@ -143,13 +144,13 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
             join_along(points, 0, 1, ray_offset, rays, own, joined);
             join_along(points, 1, 1, ray_offset, rays, own, joined);
             join_along(points, -1, 1, ray_offset, rays, own, joined);
-            first_[i + 1] = number_parts(points, joined, code_[i]);
+            parts_[i] = std::uint8_t(number_parts(points, joined, code_[i]));
         }
     });
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    lumel_.resize(first_.back());
-    for (std::size_t i = 0; i < world.size(); ++i)
-        std::fill(lumel_.begin() + first_[i], lumel_.begin() + first_[i + 1], std::uint32_t(i));
+    for (const std::uint32_t i : order) {
+        first_[i] = std::uint32_t(lumel_.size());
+        lumel_.insert(lumel_.end(), parts_[i], i);
+    }
 }
 
 }  // namespace lumel

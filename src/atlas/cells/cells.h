@@ -73,20 +73,22 @@ CellPoints cell_points(const WorldLumels& world, const Cells& cells, std::size_t
 class SubLumels {
 public:
     /// Joins cells whose points see each other by rays just above the lumel. Buried lumels stay
-    /// whole.
+    /// whole. order [N]: in which lumels get their sub-lumels' numbers, so that those of neighbours
+    /// are close in memory.
     SubLumels(const WorldLumels& world, const Cells& cells, const RayScene& rays,
-              const Lumels& lumels, std::uint32_t seed);
+              const Lumels& lumels, const std::vector<std::uint32_t>& order, std::uint32_t seed);
 
     /// Memory for these numbers of lumels and sub-lumels [bytes].
     static std::uint64_t bytes(std::size_t lumels, std::size_t parts)
     {
-        return 2 * lumels * sizeof(std::uint32_t) + parts * sizeof(std::uint32_t);
+        return lumels * (2 * sizeof(std::uint32_t) + sizeof(std::uint8_t)) +
+               parts * sizeof(std::uint32_t);
     }
 
     std::size_t count() const { return lumel_.size(); }  ///< P, the total number of sub-lumels
     std::uint32_t first(std::size_t lumel) const { return first_[lumel]; }
-    std::uint32_t end(std::size_t lumel) const { return first_[lumel + 1]; }
-    bool is_cut(std::size_t lumel) const { return end(lumel) > first(lumel) + 1; }
+    std::uint32_t end(std::size_t lumel) const { return first_[lumel] + parts_[lumel]; }
+    bool is_cut(std::size_t lumel) const { return parts_[lumel] > 1; }
     /// The sub-lumel of a cell.
     std::uint32_t part(std::size_t lumel, std::uint32_t cell) const
     {
@@ -95,7 +97,8 @@ public:
     std::uint32_t lumel(std::size_t part) const { return lumel_[part]; }
 
 private:
-    std::vector<std::uint32_t> first_;  ///< [N + 1]
+    std::vector<std::uint32_t> first_;  ///< [N]
+    std::vector<std::uint8_t> parts_;   ///< [N] number of sub-lumels
     std::vector<std::uint32_t> code_;   ///< [N] two bits per cell
     std::vector<std::uint32_t> lumel_;  ///< [P]
 };

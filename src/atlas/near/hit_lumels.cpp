@@ -12,6 +12,13 @@ HitLumels::HitLumels(const Scene& scene, const Atlas& atlas, const Lumels& lumel
 {
     for (std::size_t s = atlas.surfaces.size(); s-- > 0;)
         first_surface_[atlas.surfaces[s].instance] = s;
+    for (const Surface& surface : atlas.surfaces) {
+        first_triangle_.push_back(corners_.size());
+        for (std::size_t k = 0; k + 2 < surface.indices.size(); k += 3)
+            corners_.push_back({surface.texcoord[surface.indices[k]],
+                                surface.texcoord[surface.indices[k + 1]],
+                                surface.texcoord[surface.indices[k + 2]]});
+    }
     for (std::uint32_t i = 0; i < lumels.lumels.size(); ++i) {
         const Lumel& lumel = lumels.lumels[i];
         (lumel.flags & kLumelBack ? back_ : front_)[lumel.texel] = i;
@@ -20,11 +27,10 @@ HitLumels::HitLumels(const Scene& scene, const Atlas& atlas, const Lumels& lumel
 
 glm::vec2 HitLumels::place(const RayHit& hit) const
 {
-    const Surface& surface = atlas_->surfaces[first_surface_[hit.instance] + hit.primitive];
-    const std::uint32_t* corner = surface.indices.data() + std::size_t(hit.triangle) * 3;
-    return surface.texcoord[corner[0]] * (1.0f - hit.barycentric.x - hit.barycentric.y) +
-           surface.texcoord[corner[1]] * hit.barycentric.x +
-           surface.texcoord[corner[2]] * hit.barycentric.y;
+    const Corners& corner =
+        corners_[first_triangle_[first_surface_[hit.instance] + hit.primitive] + hit.triangle];
+    return corner.first * (1.0f - hit.barycentric.x - hit.barycentric.y) +
+           corner.second * hit.barycentric.x + corner.third * hit.barycentric.y;
 }
 
 std::uint32_t HitLumels::lumel(const RayHit& hit) const

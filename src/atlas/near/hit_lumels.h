@@ -22,8 +22,15 @@ public:
     std::uint32_t lumel(const RayHit& hit) const;
 
 private:
+    /// Atlas positions of a triangle's corners [texels], together in memory.
+    struct Corners {
+        glm::vec2 first, second, third;
+    };
+
     const Atlas* atlas_;
     std::vector<std::size_t> first_surface_;   ///< [instances]
+    std::vector<std::size_t> first_triangle_;  ///< [surfaces] into corners_
+    std::vector<Corners> corners_;             ///< [triangles of all surfaces]
     std::vector<std::uint32_t> front_, back_;  ///< [height][width] lumel of each texel
 };
 

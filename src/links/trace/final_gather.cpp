@@ -31,7 +31,7 @@ FinalGather::FinalGather(const DirectRays& direct, std::vector<glm::vec3> receiv
     : direct_(direct),
       sent_(std::move(received)),
       parts_(direct.work().world, direct.work().cells, direct.work().scene.rays,
-             direct.work().scene.lumels, PathSamples::hash(seed, kPartStream)),
+             direct.work().scene.lumels, direct.work().order, PathSamples::hash(seed, kPartStream)),
       numbers_(direct.work().scene.scene.instances.size(), parts_.count()),
       tracer_(direct.work(), parts_, numbers_, direct.finder(), seed),
       reflected_(direct.work(), parts_, numbers_, direct.finder()),

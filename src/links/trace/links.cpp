@@ -169,7 +169,8 @@ std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, 
     constexpr std::size_t kOfGathered = 2 * sizeof(glm::vec3) + sizeof(std::uint32_t);
     constexpr std::size_t kOfMean = sizeof(glm::vec3) + 2 * sizeof(float);
     constexpr std::size_t kOfOrder = sizeof(std::uint32_t), kOfGroups = sizeof(std::uint32_t);
-    const std::size_t of_parts = kSolutions * (kOfGathered + sizeof(glm::vec3)) + kOfGroups;
+    const std::size_t of_parts =
+        kSolutions * (kOfGathered + sizeof(glm::vec3)) + kOfGroups + sizeof(glm::vec3);
     const std::size_t of_lumels = sizeof(WorldLumel) + kOfOrder + kOfMean + sizeof(std::uint16_t);
     const auto varying = std::size_t(kVarying * double(lumels));
     return lumels * (of_lumels + of_parts) + pieces * (sizeof(Piece) + sizeof(Facet)) +
@@ -289,7 +290,7 @@ void LinkRadiosity::cut()
 {
     if (stored_)
         changes_ = changes_since(*stored_, work_.scene, work_.world, options_.seed);
-    parts_.emplace(work_.world, work_.cells, work_.scene.rays, work_.scene.lumels,
+    parts_.emplace(work_.world, work_.cells, work_.scene.rays, work_.scene.lumels, work_.order,
                    PathSamples::hash(options_.seed, kPartStream));
     direct_.emplace(work_, PathSamples::hash(options_.seed, kDirectStream));
     numbers_.emplace(work_.scene.scene.instances.size(), parts_->count());
@@ -672,11 +673,12 @@ void LinkRadiosity::combine()
             found[k][i] = brought(i, k);
     }
     std::vector<float> near(work_.lumels().size(), NearLink::kNoHit);
-    for (const std::optional<LinkTable>& links : links_)
-        lower_to_hits(work_, *parts_, *numbers_, *links, near);
     std::optional<ChartFilter> filter;
-    if (options_.filter)
+    if (options_.filter) {
+        for (const std::optional<LinkTable>& links : links_)
+            lower_to_hits(work_, *parts_, *numbers_, *links, near);
         filter.emplace(work_, *parts_, near);
+    }
     mean_ = mean_of(found, filter ? &*filter : nullptr);
 }
 

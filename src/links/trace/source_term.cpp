@@ -94,15 +94,18 @@ void lower_to_hits(const LinkWork& work, const SubLumels& parts, const LinkNumbe
 {
     for_each_row(work, parts, links, [&](const LinkRow& row, std::uint32_t i) {
         const WorldLumel& lumel = work.world[i];
-        for (const LinkEnd end : row.ends)
-            if (numbers.is_part(end.number())) {
-                const std::uint32_t j = parts.lumel(numbers.part(end.number()));
-                const float away =
-                    std::max(glm::distance(lumel.centre,
-                                           work.cells.centre(j, work.world[j].centre, end.cell())),
-                             kNearSides * std::max(lumel.size, work.world[j].size));
-                nearest[i] = std::min(nearest[i], away);
-            }
+        for (const LinkEnd end : row.ends) {
+            if (!numbers.is_part(end.number()))
+                continue;
+            const std::uint32_t j = parts.lumel(numbers.part(end.number()));
+            const WorldLumel& hit = work.world[j];
+            if (glm::distance(lumel.centre, hit.centre) - hit.size >= nearest[i])
+                continue;  // nor is its cell nearer
+            const glm::vec3 at = work.cells.centre(j, hit.centre, end.cell());
+            nearest[i] =
+                std::min(nearest[i], std::max(glm::distance(lumel.centre, at),
+                                              kNearSides * std::max(lumel.size, hit.size)));
+        }
         for (const NearLink& near : row.near)
             nearest[i] = std::min(nearest[i], near.distance);
     });

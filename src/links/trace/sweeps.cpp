@@ -207,8 +207,11 @@ LinkSolver::LinkSolver(const LinkWork& work, const SubLumels& parts, const LinkN
     : work_(work),
       parts_(parts),
       numbers_(numbers),
+      albedo_(parts.count()),
       group_(parts.count())
 {
+    for (std::size_t p = 0; p < albedo_.size(); ++p)
+        albedo_[p] = work.lumels()[parts.lumel(p)].albedo;
     const WorldLumels& world = work.world;
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (std::size_t i = 0; i < world.size(); ++i) {
@@ -261,7 +264,7 @@ LinkSolver::Change LinkSolver::sweep_block(const System& system, std::size_t b, 
             if (system.source.rays[p] == 0)
                 received[p] = rays > 0 ? glm::vec3(of_all) / float(rays) : glm::vec3(0.0f);
             const std::uint32_t n = numbers_.of_part(p);
-            next[n] = glm::vec4(work_.lumels()[i].albedo * received[p], 0.0f);
+            next[n] = glm::vec4(albedo_[p] * received[p], 0.0f);
             const double now = double(next[n].x + next[n].y + next[n].z);
             const double before = double(sent[n].x + sent[n].y + sent[n].z);
             if (now > 0.0) {
@@ -283,8 +286,7 @@ void LinkSolver::solve(const LinkTable& links, const SourceTerm& source,
     received.resize(parts, glm::vec3(0.0f));
     std::vector<Reflected> sent(numbers_.count(), Reflected(0.0f)), next(sent);
     for (std::uint32_t p = 0; p < parts; ++p)
-        sent[numbers_.of_part(p)] =
-            glm::vec4(work_.lumels()[parts_.lumel(p)].albedo * received[p], 0.0f);
+        sent[numbers_.of_part(p)] = glm::vec4(albedo_[p] * received[p], 0.0f);
     std::optional<Groups> groups;
     std::vector<Change> changes(blocks);
     double before = 0.0, floor = kDarkestCounted * mean_of(sent, parts);

@@ -50,6 +50,7 @@ private:
     const LinkWork& work_;
     const SubLumels& parts_;
     const LinkNumbers& numbers_;
+    std::vector<glm::vec3> albedo_;     ///< [P] ρ, in the order of the sweeps
     std::vector<std::uint32_t> group_;  ///< [P]
     std::uint32_t group_count_ = 0;
 };

@@ -178,6 +178,8 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
     const std::span<const LinkEnd> known =
         sending.known ? sending.known->of(i, rays) : std::span<const LinkEnd>();
     const bool is_cut = parts_.is_cut(i);
+    glm::vec3 axis(0.0f);
+    glm::mat3 frame(0.0f);
     for (std::uint32_t k = 0; k < rays; ++k) {
         std::optional<LinkEnd> end;
         if (!known.empty())
@@ -197,7 +199,11 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
             along = shared->draw(start.normal, at);
             direction = sending.shared->all()[along];
         } else {
-            direction = frame_about(start.normal) * by_cosine(samples.stratified(kDirectionPair));
+            if (start.normal != axis) {
+                axis = start.normal;
+                frame = frame_about(axis);
+            }
+            direction = frame * by_cosine(samples.stratified(kDirectionPair));
         }
         if (start.cosine(direction) > 0.0f) {
             const RaySpan ray = ray_out(start.position, direction, samples.bits(kPassPair));

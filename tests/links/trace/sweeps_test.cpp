@@ -21,7 +21,7 @@ struct TracedRoom {
     TracedRoom()
         : scene(support::source_path("scenes/room.gltf"), {.size = 128}),
           work(scene, {cast_on_host(scene.rays)}, SampleRule::area, order_in_space),
-          parts(work.world, work.cells, scene.rays, scene.lumels, kPartStream),
+          parts(work.world, work.cells, scene.rays, scene.lumels, work.order, kPartStream),
           direct(work, kDirectStream),
           numbers(scene.scene.instances.size(), parts.count()),
           tracer(work, parts, numbers, direct, 1),
