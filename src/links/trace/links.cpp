@@ -231,7 +231,7 @@ void LinkRadiosity::state(Archive& archive)
     archive(*direct_, round_, mean_rays_, means_, rays_, traced_, mean_.light, mean_.noise,
             mean_.wrong, mean_light_, all_, dark_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
-        archive(*links_[k], received_[k]);
+        archive(*links_[k], sources_[k].rays, received_[k]);
 }
 
 void LinkRadiosity::write_state(StateWriter& writer)
@@ -264,7 +264,8 @@ void LinkRadiosity::check_sizes() const
                 traced_ <= tracer_->blocks() && means_.size() == round_;
     for (std::size_t k = 0; k < kSolutions; ++k)
         fits = fits && links_[k]->fits(work_.order, *parts_, *numbers_) &&
-               is(received_[k].size(), parts);
+               is(received_[k].size(), parts) &&
+               sources_[k].rays.size() == (mean_.light.empty() ? 0 : parts);
     if (!fits)
         throw Error(ErrorKind::input, "checkpoint",
                     "is of another version of Lumel; bake without --resume");
