@@ -19,9 +19,9 @@ Check whole(std::int64_t low, std::int64_t high);
 /// Accepts positive finite numbers.
 Check positive();
 
-/// Accepts the numbers of rays that lumels can keep as links: 4, 16, 64 and 256.
+/// Accepts the numbers of rays per lumel of live links: 4, 16, 64 and 256.
 Check link_rays();
-/// A number of rays that three solutions share evenly.
+/// Accepts numbers of rays that three solutions share evenly.
 Check even_rays();
 
 /// Accepts finite numbers from `low` to `high`.

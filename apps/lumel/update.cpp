@@ -35,8 +35,8 @@ std::string sentence_of(const UpdateSummary& summary)
             ? ""
             : fmt::format(", estimated error of the map {:.2f} %", 100.0 * summary.error);
     if (row.links > 0)
-        return fmt::format("{}: traced {} of {} links again in {:.1f} s{}", changes_in(row),
-                           row.rays, row.links, summary.seconds, error);
+        return fmt::format("{}: traced {} of {} links in {:.1f} s{}", changes_in(row), row.rays,
+                           row.links, summary.seconds, error);
     if (row.solved_anew)
         return fmt::format("{}: too much to correct: solved anew in {:.1f} s{}", changes_in(row),
                            summary.seconds, error);

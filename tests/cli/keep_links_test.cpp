@@ -93,8 +93,8 @@ void expect_equal(const std::string& a, const std::string& b)
 /// A state follows only rays whose first hit is near.
 void expect_few_traced(const Json& report)
 {
-    const double all =
-        report["links"]["rays"].get<double>() * report["links"]["lumels"].get<double>();
+    const double all = report["links"]["rays"].get<double>() *
+                       report["links"]["lumels"].get<double>() * double(report["states"].size());
     EXPECT_LT(4 * report["links"]["traced_again"].get<double>(), all);
 }
 
@@ -124,6 +124,7 @@ TEST(KeepLinks, RelightIsANewBakeOfTheChangedScene)
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const Json report = Json::parse(outcome.out);
     expect_few_traced(report);
+    EXPECT_EQ(report["states"].size(), 3u);
     EXPECT_EQ(report["links"]["sources"], Json({"sky", "bulb", "light"}));
     expect_equal(folder + "/states/as baked.exr", folder + "/lightmap.exr");
     const std::string lamps = box.bake("lamps", [](Json& scene) {

@@ -44,7 +44,8 @@ public:
     {
         const Grid& grid = grids_[i];
         const float x = float(cell % kCellSide) + 0.5f - grid.x0 - glm::dot(grid.x, point);
-        const float y = float(cell / kCellSide) + 0.5f - grid.y0 - glm::dot(grid.y, point);
+        const std::uint32_t row = cell / kCellSide;
+        const float y = float(row) + 0.5f - grid.y0 - glm::dot(grid.y, point);
         return point + grid.x * (x / glm::dot(grid.x, grid.x)) +
                grid.y * (y / glm::dot(grid.y, grid.y));
     }

@@ -1,7 +1,10 @@
 #include "jobs/edit/kept_solution.h"
 
+#include <algorithm>
+
 #include "atlas/lumels/sides.h"
 #include "base/core/error.h"
+#include "base/core/usage.h"
 #include "methods/methods.h"
 
 namespace lumel {
@@ -12,10 +15,26 @@ constexpr double kUsualTarget = 0.02;
 /// Progress at the first estimate.
 constexpr double kFirstLight = 0.9;
 
-bool has_limit(const SolverOptions& solver)
+/// Share of the free memory that links may take.
+constexpr double kShareForLinks = 0.5;
+
+/// The target errors of a bake, or what it reached if something else ended it.
+SolverOptions limits_of(const BakeRecord& baked)
 {
-    return solver.target_error > 0.0 || solver.target_dark_error > 0.0 || solver.max_shots > 0 ||
-           std::get<LinksOptions>(solver.method).even_rays > 0;
+    SolverOptions options = baked.solver;
+    const bool ended_early = options.max_shots > 0 || options.max_seconds > 0.0;
+    options.max_shots = 0;
+    options.max_seconds = 0.0;
+    options.max_bytes = std::uint64_t(kShareForLinks * double(available_memory_bytes()));
+    if (std::get<LinksOptions>(options.method).even_rays > 0)
+        return options;
+    if (ended_early)
+        options.target_error = std::max(options.target_error, baked.error);
+    if (ended_early && options.target_dark_error > 0.0)
+        options.target_dark_error = std::max(options.target_dark_error, baked.dark_error);
+    if (!(options.target_error > 0.0) && !(options.target_dark_error > 0.0))
+        options.target_error = kUsualTarget;
+    return options;
 }
 
 }  // namespace
@@ -60,10 +79,7 @@ std::unique_ptr<LinkRadiosity> lit_over_links(const SolveScene& scene, const Bak
                                               const StoredLinks& links, LinkRadiosity::Then then,
                                               const ProgressCallback& progress)
 {
-    SolverOptions options = baked.solver;
-    options.max_seconds = 0.0;
-    if (!has_limit(options))
-        options.target_error = baked.error > 0.0 ? baked.error : kUsualTarget;
+    const SolverOptions options = limits_of(baked);
     auto solver = std::make_unique<LinkRadiosity>(scene, std::get<LinksOptions>(options.method),
                                                   options.limits(), baked.parts);
     if (!links.rounds.empty())

@@ -96,7 +96,7 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
                                        part_of(progress, before, before + part));
             }))
             break;
-        traced = light->traced();
+        traced += light->traced();
         const double found = wall_seconds();
         const Image map = finish_map(world.scene, world.atlas, world.lumels, light->irradiance());
         write_map(output, states[s].name, map, baked.record.half, world, stages);

@@ -35,6 +35,8 @@ std::string settings_of(const BakeOptions& options)
     settings["solver"] = solver_settings(options.solver);
     settings["atlas"] = atlas_settings(options.atlas);
     settings["parts"] = int(options.parts);
+    if (const auto* links = std::get_if<LinksOptions>(&options.solver.method))
+        settings["links"] = links->even_rays;
     return json_text(settings);
 }
 

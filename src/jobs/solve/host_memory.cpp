@@ -107,20 +107,18 @@ std::uint64_t writing_bytes(const Sizes& sizes, std::uint64_t layers)
     return std::max({map, solution, scene, toning, baked});
 }
 
-/// Limit of rays per lumel, 0: none.
-std::uint64_t link_rays(const SolverOptions& solver)
+std::uint64_t bytes_of_links(std::uint64_t lumels, const SolverOptions& solver)
 {
     const std::uint32_t even = std::get<LinksOptions>(solver.method).even_rays;
-    return even > 0 ? even : solver.max_shots;
+    return even > 0 ? LinkRadiosity::first_bytes(lumels, even)
+                    : LinkRadiosity::likely_bytes(lumels, solver.max_shots);
 }
 
 /// Copies of all links while they are written: as StoredLinks, packed, and twice in a stream.
 std::uint64_t kept_bytes(const Sizes& sizes, const BakeOptions& options)
 {
     constexpr std::uint64_t kCopies = 4;
-    return options.keep_links
-               ? kCopies * LinkRadiosity::likely_bytes(sizes.lumels, link_rays(options.solver))
-               : 0;
+    return options.keep_links ? kCopies * bytes_of_links(sizes.lumels, options.solver) : 0;
 }
 
 /// Memory of the largest stage, in addition to permanent data.
@@ -149,8 +147,9 @@ void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& optio
     if (!uses_links(options))
         return;
     memory.solver = LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels);
-    memory.links = LinkRadiosity::likely_bytes(lumels, link_rays(options.solver));
-    memory.first_links = LinkRadiosity::first_bytes(lumels);
+    memory.links = bytes_of_links(lumels, options.solver);
+    memory.first_links =
+        LinkRadiosity::first_bytes(lumels, std::get<LinksOptions>(options.solver.method).even_rays);
 }
 
 /// The sizes that do not depend on the map's side.

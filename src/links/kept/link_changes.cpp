@@ -33,6 +33,10 @@ void add_passage(Fingerprint& print, const Scene& scene, const Primitive& primit
     const TextureUse& use = material.base_color_texture;
     if (use.texture < 0)
         return;
+    const std::vector<glm::vec2>& texcoords = primitive.texcoords[std::size_t(use.texcoord)];
+    for (const std::uint32_t corner : primitive.indices)
+        if (!texcoords.empty())
+            print.add(texcoords[corner]);
     print.add(use.texcoord);
     print.add(use.transform);
     print.add(int(use.wrap_s));
@@ -50,14 +54,32 @@ void add_triangles(Fingerprint& print, const Primitive& primitive)
     }
 }
 
+/// True if rays pass some surface of an instance by chance: by random numbers of its own in each
+/// set of instances that is traced.
+bool blends(const Scene& scene, const Instance& instance)
+{
+    const std::vector<Primitive>& all = scene.meshes[std::size_t(instance.mesh)].primitives;
+    return std::any_of(all.begin(), all.end(), [&](const Primitive& primitive) {
+        const Material& material = scene.materials[std::size_t(primitive.material)];
+        return may_be_transparent(material, primitive) && material.alpha_mode != AlphaMode::mask;
+    });
+}
+
+bool blends(const Scene& scene)
+{
+    return std::any_of(scene.instances.begin(), scene.instances.end(),
+                       [&](const Instance& instance) { return blends(scene, instance); });
+}
+
 /// Marks the lumels near a changed one on its instance, whose hits may now be looked up otherwise.
 void mark_around(const Lumels& lumels, const std::vector<std::uint32_t>& by_side,
                  const Lumel& changed, std::vector<char>& lumels_hit)
 {
+    constexpr int kMarkedTexels = 2 * kHitReach;  // from a hit's former lumel to one on its other side
     const int width = lumels.width, height = lumels.height;
     const int x0 = int(changed.texel) % width, y0 = int(changed.texel) / width;
-    for (int y = std::max(y0 - kHitReach, 0); y <= std::min(y0 + kHitReach, height - 1); ++y)
-        for (int x = std::max(x0 - kHitReach, 0); x <= std::min(x0 + kHitReach, width - 1); ++x)
+    for (int y = std::max(y0 - kMarkedTexels, 0); y <= std::min(y0 + kMarkedTexels, height - 1); ++y)
+        for (int x = std::max(x0 - kMarkedTexels, 0); x <= std::min(x0 + kMarkedTexels, width - 1); ++x)
             for (std::size_t side = 0; side < 2; ++side) {
                 const std::size_t texel = std::size_t(y) * std::size_t(width) + std::size_t(x);
                 const std::uint32_t i = by_side[2 * texel + side];
@@ -69,9 +91,9 @@ void mark_around(const Lumels& lumels, const std::vector<std::uint32_t>& by_side
 /// Marks the lumels close to a box, which can be cut otherwise with and without what is in it.
 void mark_close(const WorldLumels& world, const Box& box, std::vector<char>& lumels_hit)
 {
-    constexpr float kCloseReach = 2.0f;  // sizes: a lumel is at most √2 wide, rays just above it
+    constexpr float kCloseSizes = 2.0f;  // a lumel is at most √2 wide, rays just above it
     for (std::size_t i = 0; i < world.size(); ++i) {
-        const float reach = kCloseReach * world[i].size;
+        const float reach = kCloseSizes * world[i].size;
         if (box.distance2(world[i].centre) <= reach * reach)
             lumels_hit[i] = 1;
     }
@@ -146,8 +168,13 @@ LinkChanges changes_since(const StoredLinks& kept, const SolveScene& scene,
     if (!fits(kept, scene, seed))
         return changes;
     const std::vector<Lumel>& lumels = scene.lumels.lumels;
-    const std::vector<std::uint64_t> prints = lumel_hashes(world, scene.lumels);
     const std::vector<std::uint64_t> instances = instance_hashes(scene.scene);
+    std::size_t moved = kept.gone.size();
+    for (std::size_t i = 0; i < instances.size(); ++i)
+        moved += instances[i] != kept.instances[i] ? 1 : 0;
+    if (moved > kMaxMoved || (kept.reordered && blends(scene.scene)))
+        return changes;
+    const std::vector<std::uint64_t> prints = lumel_hashes(world, scene.lumels);
     const LinkNumbers numbers = kept.numbers();
     changes.starts.resize(lumels.size());
     changes.ends.resize(numbers.count());
@@ -161,7 +188,8 @@ LinkChanges changes_since(const StoredLinks& kept, const SolveScene& scene,
             const Box box{tree.low(), tree.high()};
             mark_close(world, box, lumels_hit);
             mark_close(world, kept.boxes[i], lumels_hit);
-            changes.moved.push_back({std::move(tree), box});
+            changes.moved.push_back(
+                {std::move(tree), box, blends(scene.scene, scene.scene.instances[i])});
         }
     const std::vector<std::uint32_t> by_side = lumels_by_side(scene.lumels);
     std::size_t starts = 0;
@@ -177,8 +205,7 @@ LinkChanges changes_since(const StoredLinks& kept, const SolveScene& scene,
             lumels_hit[i] = 1;
     }
     std::copy(lumels_hit.begin(), lumels_hit.end(), changes.ends.begin() + numbers.of_part(0));
-    changes.all =
-        changes.moved.size() > kMaxMoved || double(starts) > kMaxStarts * double(lumels.size());
+    changes.all = double(starts) > kMaxStarts * double(lumels.size());
     return changes;
 }
 

@@ -27,6 +27,7 @@ struct LinkChanges {
     struct Moved {
         RayScene tree;
         Box box;
+        bool blends;  ///< rays pass it by chance
     };
 
     bool all = true;           ///< nothing is reusable: the rest is empty

@@ -10,8 +10,6 @@ namespace {
 bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const SubLumels& parts,
           const LinkNumbers& numbers)
 {
-    if (block.rays.empty())
-        return block.ends.empty() && block.from.empty() && block.near.empty();
     if (block.rays.size() != lumels.size())
         return false;
     std::size_t slots = 0, of_cut = 0;
@@ -61,22 +59,24 @@ std::size_t LinkTable::bytes() const
 }
 
 bool LinkTable::fits(const std::vector<std::uint32_t>& order, const SubLumels& parts,
-                     const LinkNumbers& numbers) const
+                     const LinkNumbers& numbers, std::size_t traced) const
 {
     const std::size_t blocks = (order.size() + kLinkBlock - 1) / kLinkBlock;
-    return sky.size() == parts.count() &&
-           std::all_of(rounds.begin(), rounds.end(), [&](const std::vector<LinkBlock>& round) {
-               for (std::size_t b = 0; b < round.size(); ++b) {
-                   const std::size_t first = b * kLinkBlock;
-                   if (round.size() != blocks ||
-                       !lumel::fits(round[b],
-                                    std::span(order).subspan(
-                                        first, std::min(kLinkBlock, order.size() - first)),
-                                    parts, numbers))
-                       return false;
-               }
-               return round.size() == blocks;
-           });
+    const auto block_fits = [&](const LinkBlock& block, std::size_t b, bool is_traced) {
+        const std::size_t first = b * kLinkBlock;
+        const auto lumels =
+            std::span(order).subspan(first, std::min(kLinkBlock, order.size() - first));
+        return is_traced ? lumel::fits(block, lumels, parts, numbers)
+                         : lumel::fits(block, {}, parts, numbers);
+    };
+    for (std::size_t r = 0; r < rounds.size(); ++r) {
+        if (rounds[r].size() != blocks)
+            return false;
+        for (std::size_t b = 0; b < blocks; ++b)
+            if (!block_fits(rounds[r][b], b, r + 1 < rounds.size() || b < traced))
+                return false;
+    }
+    return sky.size() == parts.count();
 }
 
 }  // namespace lumel

@@ -145,9 +145,10 @@ struct LinkTable {
 
     /// Memory of links [bytes].
     std::size_t bytes() const;
-    /// True if all indices are those of `lumels` in blocks, of sub-lumels and of numbers.
+    /// True if all indices are valid: of lumels in this order, of sub-lumels and of numbers.
+    /// traced: blocks of the last round that are not empty.
     bool fits(const std::vector<std::uint32_t>& order, const SubLumels& parts,
-              const LinkNumbers& numbers) const;
+              const LinkNumbers& numbers, std::size_t traced) const;
 
     template <class Archive>
     void state(Archive& archive)

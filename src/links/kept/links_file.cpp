@@ -7,8 +7,8 @@
 //     contents  in the order of contents(), as of StateWriter
 //
 // Links have as many bits as the largest needs, lowest first, solution by solution in each round.
-// Those to be traced again take as many. Contents with a valid fingerprint are still checked before
-// they are used as indices.
+// Those to be traced again have the number LinkNumbers::kNear. Contents with a valid fingerprint
+// are still checked before they are used as indices.
 
 #include "links/kept/links_file.h"
 
@@ -129,7 +129,7 @@ bool is_sound(const StoredLinks::StoredTexcoords& sheet, const StoredLinks& kept
 /// Box coordinates may be anything: they are compared only.
 bool is_sound(const StoredLinks::Round& round, const StoredLinks& kept)
 {
-    return round.rays.size() == kept.lumels.size() && round.mean >= 0.0 &&
+    return round.rays.size() == kept.lumels.size() && round.mean > 0.0 &&
            round.mean <= double(std::numeric_limits<std::uint16_t>::max());
 }
 

@@ -84,6 +84,9 @@ StoredLinks renumbered(const StoredLinks& kept, const Renumbering& now)
                        .lumels = std::vector<std::uint64_t>(now.lumels_now, 0),
                        .instances = std::vector<std::uint64_t>(now.instances_now, 0),
                        .boxes = std::vector<Box>(now.instances_now)};
+    result.reordered = now.instances.size() != now.instances_now;
+    for (std::size_t i = 0; i < now.instances.size(); ++i)
+        result.reordered = result.reordered || now.instances[i] != i;
     for (std::size_t i = 0; i < now.instances.size(); ++i)
         if (const std::uint32_t to = now.instances[i]; to != Renumbering::kNotThere) {
             result.instances[to] = kept.instances[i];

@@ -16,7 +16,7 @@
 namespace lumel {
 
 /// The ends of all rays of a bake, by which light is found again in its scene or in an edited one,
-/// of N lumels and I instances. Independent of lamps, sky and materials.
+/// of N lumels and I instances. Independent of lamps, sky, colours and emission.
 struct StoredLinks {
     /// Rays traced in one round of a bake.
     struct Round {
@@ -42,7 +42,8 @@ struct StoredLinks {
     std::vector<std::uint64_t> instances;  ///< [I] instance_hashes()
     std::vector<Box> boxes;                ///< [I] bounds of the instances [m]
     std::vector<Round> rounds;
-    std::vector<Box> gone;  ///< bounds of removed instances; never in a file
+    std::vector<Box> gone;   ///< bounds of removed instances; never in a file
+    bool reordered = false;  ///< instances have other numbers than in the file
 
     /// Unrounded texture coordinates; scene.glb has rounded ones.
     struct StoredTexcoords {

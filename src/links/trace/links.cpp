@@ -1,9 +1,8 @@
 // Radiosity over links. The irradiance of a lumel is direct light D, from shadow rays to light
 // sources, plus light along cosine-distributed rays. Each of these is traced once. The sub-lumel
-// and the cell that it hits are stored, a link of four bytes, and
-//
-// is solved over the links, sweep by sweep, for all bounces at once (links/trace/sweeps.cpp). The
-// cost grows linearly with the number of lumels.
+// and the cell that it hits are stored, a link of four bytes, and X = C + K ρ X, with C the light
+// of sources at the ends of links, is solved over the links, sweep by sweep, for all bounces at
+// once (links/trace/sweeps.cpp). The cost grows linearly with the number of lumels.
 //
 // Three solutions have their own links, and direct light has two halves. The result is the mean of
 // the solutions, filtered over charts. The filter weights for two solutions A and B come from the
@@ -149,9 +148,10 @@ LinkRadiosity::LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters,
 
 LinkRadiosity::~LinkRadiosity() = default;
 
-std::uint64_t LinkRadiosity::first_bytes(std::size_t lumels)
+std::uint64_t LinkRadiosity::first_bytes(std::size_t lumels, std::uint32_t even_rays)
 {
-    return std::uint64_t(kSolutions * double(lumels) * (kFirstRays * kLinkBytes + kRowBytes));
+    const double rays = even_rays > 0 ? double(even_rays) : double(kSolutions * kFirstRays);
+    return std::uint64_t(double(lumels) * (rays * kLinkBytes + kSolutions * kRowBytes));
 }
 
 std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shots)
@@ -166,11 +166,11 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
 
 std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels)
 {
-    constexpr std::size_t kOfGathered = 2 * sizeof(glm::vec3) + sizeof(std::uint32_t);
+    constexpr std::size_t kOfSources = 2 * sizeof(glm::vec3) + sizeof(std::uint32_t);
     constexpr std::size_t kOfMean = sizeof(glm::vec3) + 2 * sizeof(float);
     constexpr std::size_t kOfOrder = sizeof(std::uint32_t), kOfGroups = sizeof(std::uint32_t);
     const std::size_t of_parts =
-        kSolutions * (kOfGathered + sizeof(glm::vec3)) + kOfGroups + sizeof(glm::vec3);
+        kSolutions * (kOfSources + sizeof(glm::vec3)) + kOfGroups + sizeof(glm::vec3);
     const std::size_t of_lumels = sizeof(WorldLumel) + kOfOrder + kOfMean + sizeof(std::uint16_t);
     const auto varying = std::size_t(kVarying * double(lumels));
     return lumels * (of_lumels + of_parts) + pieces * (sizeof(Piece) + sizeof(Facet)) +
@@ -180,7 +180,7 @@ std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, 
 
 std::uint64_t LinkRadiosity::sweep_bytes(std::size_t lumels, std::size_t texels)
 {
-    const std::uint64_t sweep = lumels * 2 * sizeof(glm::vec4);
+    const std::uint64_t sweep = lumels * 3 * sizeof(glm::vec4);
     const std::uint64_t mean = lumels * (kSolutions * sizeof(glm::vec3) + sizeof(float)) +
                                ChartFilter::bytes(lumels, texels);
     return std::max(sweep, mean);
@@ -259,11 +259,17 @@ void LinkRadiosity::check_sizes() const
     const auto is = [](std::size_t size, std::size_t wanted) {
         return size == 0 || size == wanted;
     };
-    bool fits = direct_->fits() && is(rays_.size(), lumels) && is(mean_.light.size(), lumels) &&
+    const bool is_tracing = stage_ == Stage::links || stage_ == Stage::solve;
+    const std::size_t traced = is_tracing ? traced_ : tracer_->blocks();
+    bool fits = stage_ > Stage::begin && stage_ <= Stage::solve && direct_->fits() &&
+                is(rays_.size(), lumels) && is(mean_.light.size(), lumels) &&
                 is(mean_.noise.size(), lumels) && is(mean_.wrong.size(), lumels) &&
-                traced_ <= tracer_->blocks() && means_.size() == round_;
+                traced_ <= tracer_->blocks() && means_.size() == round_ &&
+                (state_.shots > 0) == !mean_.light.empty() &&
+                (!is_tracing || (mean_rays_ > 0.0 && rays_.size() == lumels));
     for (std::size_t k = 0; k < kSolutions; ++k)
-        fits = fits && links_[k]->fits(work_.order, *parts_, *numbers_) &&
+        fits = fits && links_[k]->rounds.size() == round_ + (is_tracing ? 1 : 0) &&
+               links_[k]->fits(work_.order, *parts_, *numbers_, traced) &&
                is(received_[k].size(), parts) &&
                sources_[k].rays.size() == (mean_.light.empty() ? 0 : parts);
     if (!fits)
@@ -337,16 +343,17 @@ bool LinkRadiosity::has_known_round() const
     return stored_ && round_ < stored_->rounds.size();
 }
 
-/// Starts a round of an earlier run again. Lumels that were buried have the mean number of rays.
+/// Starts a round of an earlier run again. Lumels that changed have the mean number of rays if they
+/// were buried.
 void LinkRadiosity::begin_known_round()
 {
     const StoredLinks::Round& round = stored_->rounds[round_];
     mean_rays_ = round.mean;
     rays_ = round.rays;
     rays_.resize(work_.order.size(), 0);
-    for (std::uint16_t& rays : rays_)
-        if (rays == 0)
-            rays = std::uint16_t(std::lround(mean_rays_));
+    for (std::size_t i = 0; i < rays_.size(); ++i)
+        if (rays_[i] == 0 && (changes_.all || changes_.starts[i]))
+            rays_[i] = std::uint16_t(std::lround(mean_rays_));
     first_rays_ = first_rays(round.rays);
     begin_links();
 }
@@ -375,7 +382,8 @@ void LinkRadiosity::begin_round()
         stage_ = Stage::direct;  // without work
         return;
     }
-    mean_rays_ = std::min(mean_rays_, std::max(fit, double(kFirstRays)));
+    if (options_.even_rays == 0)
+        mean_rays_ = std::min(mean_rays_, std::max(fit, double(kFirstRays)));
     if (most_shots_ > state_.shots)
         mean_rays_ = std::min(mean_rays_, double(most_shots_ - state_.shots) / double(kSolutions));
     share_out_rays();
@@ -463,35 +471,37 @@ StoredLinks LinkRadiosity::kept(const std::string& hash) const
                      .lumels = lumel_hashes(work_.world, work_.scene.lumels),
                      .instances = instance_hashes(work_.scene.scene),
                      .boxes = instance_boxes(work_.scene.scene)};
-    const LinkNumbers stored = kept.numbers();
+    for (std::size_t r = 0; r < means_.size(); ++r)
+        kept.rounds.push_back(stored_round(r, kept.numbers()));
+    keep_places(work_.scene.atlas, kept);
+    return kept;
+}
+
+/// A round by lumel, with numbers of lumels in place of those of sub-lumels.
+StoredLinks::Round LinkRadiosity::stored_round(std::size_t r, const LinkNumbers& stored) const
+{
+    const std::vector<std::uint32_t>& order = work_.order;
+    StoredLinks::Round round{.mean = means_[r], .rays = std::vector<std::uint16_t>(order.size())};
+    for (std::size_t o = 0; o < order.size(); ++o)
+        round.rays[order[o]] = links_[0]->rounds[r][o / kLinkBlock].rays[o % kLinkBlock];
+    const std::vector<std::size_t> first = first_rays(round.rays);
     const auto as_stored = [&](LinkEnd end) {
         return numbers_->is_part(end.number())
                    ? LinkEnd::of(stored.of_part(parts_->lumel(numbers_->part(end.number()))),
                                  end.cell())
                    : end;
     };
-    for (std::size_t r = 0; r < links_[0]->rounds.size(); ++r) {
-        StoredLinks::Round& round = kept.rounds.emplace_back();
-        round.mean = means_[r];
-        round.rays.resize(work_.order.size());
-        for (std::size_t o = 0; o < work_.order.size(); ++o)
-            round.rays[work_.order[o]] = links_[0]->rounds[r][o / kLinkBlock].rays[o % kLinkBlock];
-        const std::vector<std::size_t> first = first_rays(round.rays);
-        for (std::uint32_t k = 0; k < kSolutions; ++k) {
-            round.ends[k].resize(first.back());
-            for (std::size_t b = 0; b < links_[k]->rounds[r].size(); ++b) {
-                auto end = links_[k]->rounds[r][b].ends.begin();
-                for (std::size_t o = b * kLinkBlock;
-                     o < std::min((b + 1) * kLinkBlock, work_.order.size()); ++o) {
-                    const std::uint32_t i = work_.order[o];
-                    for (std::size_t n = first[i]; n < first[i + 1]; ++n)
-                        round.ends[k][n] = as_stored(*end++);
-                }
-            }
+    for (std::uint32_t k = 0; k < kSolutions; ++k) {
+        round.ends[k].resize(first.back());
+        std::vector<LinkEnd>::const_iterator end;
+        for (std::size_t o = 0; o < order.size(); ++o) {
+            if (o % kLinkBlock == 0)
+                end = links_[k]->rounds[r][o / kLinkBlock].ends.begin();
+            for (std::size_t n = first[order[o]]; n < first[order[o] + 1]; ++n)
+                round.ends[k][n] = as_stored(*end++);
         }
     }
-    keep_places(work_.scene.atlas, kept);
-    return kept;
+    return round;
 }
 
 std::uint64_t LinkRadiosity::traced() const

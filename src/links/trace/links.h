@@ -37,8 +37,8 @@ public:
     /// GPU memory [bytes]: none.
     static std::uint64_t device_bytes(const SolveSize&, const LinksOptions&) { return 0; }
 
-    /// Host memory of the first round's links [bytes].
-    static std::uint64_t first_bytes(std::size_t lumels);
+    /// Host memory of the first round's links [bytes]. even_rays: as in LinksOptions.
+    static std::uint64_t first_bytes(std::size_t lumels, std::uint32_t even_rays);
 
     /// Host memory of links for the ray count of most scenes, at most `shots` per lumel (0: no
     /// limit) [bytes]. The actual count depends on the error.
@@ -63,7 +63,7 @@ public:
 
     /// What a solver does after it has the links of an earlier run.
     enum class Then {
-        end,  ///< refines direct light at most
+        end,  ///< adds no links; may refine direct light
         add,  ///< adds links until the target error is reached
     };
     /// Before the first step: takes links of an earlier run, which must outlive this, and traces
@@ -103,6 +103,7 @@ private:
     void begin_known_round();
     void begin_links();
     bool has_known_round() const;
+    StoredLinks::Round stored_round(std::size_t round, const LinkNumbers& stored) const;
     std::uint32_t interleaved() const;
     void share_out_rays();
     void solve();

@@ -154,13 +154,13 @@ std::optional<LinkEnd> LinkTracer::still(LinkEnd stored, const Known& known) con
                : stored;
 }
 
-bool LinkTracer::may_meet_moved(const RaySpan& ray, const LinkChanges& changes)
+bool LinkTracer::may_meet_moved(const RaySpan& ray, const LinkChanges& changes) const
 {
-    return std::any_of(changes.moved.begin(), changes.moved.end(),
-                       [&](const LinkChanges::Moved& moved) {
-                           return moved.box.may_meet(ray.origin, ray.direction, ray.far, 0.0f) &&
-                                  moved.tree.transmittance(ray) != glm::vec3(1.0f);
-                       });
+    return std::any_of(
+        changes.moved.begin(), changes.moved.end(), [&](const LinkChanges::Moved& moved) {
+            return moved.box.may_meet(ray.origin, ray.direction, ray.far, ray_offset_) &&
+                   (moved.blends || moved.tree.transmittance(ray) != glm::vec3(1.0f));
+        });
 }
 
 /// Adds the rays of lumel i.

@@ -60,7 +60,7 @@ private:
 
     void add(std::uint32_t lumel, const Sending& sending, RayBatch& wave) const;
     std::optional<LinkEnd> still(LinkEnd stored, const Known& known) const;
-    static bool may_meet_moved(const RaySpan& ray, const LinkChanges& changes);
+    bool may_meet_moved(const RaySpan& ray, const LinkChanges& changes) const;
     void cast_bundles(const SharedDirections& shared, std::vector<RayBatch>& waves) const;
     void follow(RayBatch& wave) const;
     Landing land(const RaySpan& ray, const RayHit& hit, float size) const;
