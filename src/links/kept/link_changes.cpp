@@ -75,11 +75,14 @@ bool blends(const Scene& scene)
 void mark_around(const Lumels& lumels, const std::vector<std::uint32_t>& by_side,
                  const Lumel& changed, std::vector<char>& lumels_hit)
 {
-    constexpr int kMarkedTexels = 2 * kHitReach;  // from a hit's former lumel to one on its other side
+    constexpr int kMarkedTexels =
+        2 * kHitReach;  // from a hit's former lumel to one on its other side
     const int width = lumels.width, height = lumels.height;
     const int x0 = int(changed.texel) % width, y0 = int(changed.texel) / width;
-    for (int y = std::max(y0 - kMarkedTexels, 0); y <= std::min(y0 + kMarkedTexels, height - 1); ++y)
-        for (int x = std::max(x0 - kMarkedTexels, 0); x <= std::min(x0 + kMarkedTexels, width - 1); ++x)
+    for (int y = std::max(y0 - kMarkedTexels, 0); y <= std::min(y0 + kMarkedTexels, height - 1);
+         ++y)
+        for (int x = std::max(x0 - kMarkedTexels, 0); x <= std::min(x0 + kMarkedTexels, width - 1);
+             ++x)
             for (std::size_t side = 0; side < 2; ++side) {
                 const std::size_t texel = std::size_t(y) * std::size_t(width) + std::size_t(x);
                 const std::uint32_t i = by_side[2 * texel + side];
