@@ -324,7 +324,8 @@ void LinkRadiosity::trace()
                 PathSamples::hash(PathSamples::hash(options_.seed, kSharedStream), stream));
         LinkTracer::Sending sending{rays_, stream, shared ? &*shared : nullptr};
         if (has_known_round())
-            sending.known.emplace(changes_, stored_->rounds[round_], first_rays_, k);
+            sending.known.emplace(
+                LinkTracer::Known{changes_, stored_->rounds[round_], first_rays_, k});
         tracer_->trace(traced_, last, sending, *links_[k]);
     }
     traced_ = last;
@@ -603,6 +604,7 @@ void LinkRadiosity::go_on()
     const bool is_even = options_.even_rays > 0;
     if ((reached && !all.empty()) || is_even) {
         state_.ended = is_even;
+        stage_ = Stage::direct;  // without work
         return;
     }
     if (refine_direct())
