@@ -38,9 +38,9 @@ void add_links_options(Command& command, GivenLinks& links)
                   "update work at full resolution (only links)",
                   &links.keep},
                  {"--links", "N",
-                  "Trace N rays from each lumel at once, in place of as many as the error needs: "
-                  "a multiple of 3, best 3 times a power of two (only links)",
-                  &links.rays, "as the error needs", even_rays()}});
+                  "Trace N rays from each lumel in one round, instead of as many as the error "
+                  "requires: a multiple of 3, best 3 times a power of two (only links)",
+                  &links.rays, "as the error requires", even_rays()}});
 }
 
 void add_file_options(Command& command, BakeArguments& bake)
@@ -69,7 +69,7 @@ void set_links(const Command& command, const GivenLinks& links, BakeOptions& opt
     for (const char* option : {"--error", "--dark-error", "--shots", "--time"})
         if (command.given(option))
             throw Error(ErrorKind::input, option,
-                        "is not read with --links, which says how many rays are traced");
+                        "cannot be given with --links, which fixes the number of rays");
     method->even_rays = links.rays;
     options.solver.target_error = 0.0;
 }

@@ -10,15 +10,13 @@
 namespace lumel {
 namespace {
 
-/// Target error of light without any limit.
-constexpr double kUsualTarget = 0.02;
 /// Progress at the first estimate.
 constexpr double kFirstLight = 0.9;
 
 /// Share of the free memory that links may take.
 constexpr double kShareForLinks = 0.5;
 
-/// The target errors of a bake, or what it reached if something else ended it.
+/// Limits of the bake: its target errors, or the errors it reached if rays or time ended it.
 SolverOptions limits_of(const BakeRecord& baked)
 {
     SolverOptions options = baked.solver;
@@ -33,7 +31,7 @@ SolverOptions limits_of(const BakeRecord& baked)
     if (ended_early && options.target_dark_error > 0.0)
         options.target_dark_error = std::max(options.target_dark_error, baked.dark_error);
     if (!(options.target_error > 0.0) && !(options.target_dark_error > 0.0))
-        options.target_error = kUsualTarget;
+        options.target_error = SolverOptions{}.target_error;
     return options;
 }
 

@@ -28,8 +28,6 @@ namespace {
 /// With a larger change of emission, relative to all emitted light, a new solution is faster than a
 /// correction.
 constexpr double kMaxChange = 0.25;
-/// Target error of a new solution if the previous error is unknown.
-constexpr double kUsualError = 0.02;
 
 /// D' - D [N] [lx] in the edited scene.
 std::vector<glm::vec3> change_of_lights(const gpu::Device& device, const EditedScene& edit,
@@ -71,7 +69,7 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
     // The ray tracing backend does not affect the result, and this can be another device.
     if (auto* links = std::get_if<LinksOptions>(&options.solver.method))
         links->rays = Rays::automatic;
-    options.solver.target_error = baked.error > 0.0 ? baked.error : kUsualError;
+    options.solver.target_error = baked.error > 0.0 ? baked.error : SolverOptions{}.target_error;
     const Setting setting(
         edit.now.scene,
         [&](const Scene&, const RayScene&, const ProgressCallback&) { return edit.now.atlas; },

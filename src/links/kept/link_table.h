@@ -13,7 +13,7 @@
 
 namespace lumel {
 
-/// What a ray hit: a number, and the cell of the lumel there.
+/// End of a ray: the number of what it hit, and the hit cell of a lumel.
 struct LinkEnd {
     static constexpr std::uint32_t kCellBits = 4, kMaxNumber = (1u << (32 - kCellBits)) - 1;
     static_assert(kCells == 1 << kCellBits);
@@ -78,7 +78,7 @@ struct NearLink {
     glm::vec3 light;       ///< gathered on the way and at the end, without further bounces [lx]
 };
 
-/// Links of some lumels, each with a run of slots.
+/// Links of up to kLinkBlock lumels. A slot is a ray.
 struct LinkBlock {
     std::vector<std::uint16_t> rays;  ///< [lumels]
     std::vector<LinkEnd> ends;        ///< [slots]

@@ -15,8 +15,8 @@
 
 namespace lumel {
 
-/// The ends of all rays of a bake, by which light is found again in its scene or in an edited one,
-/// of N lumels and I instances. Independent of lamps, sky, colours and emission.
+/// Ends of all rays of a bake, to light its scene again, or an edited one. N lumels, I instances.
+/// Independent of lamps, sky, colours and emission.
 struct StoredLinks {
     /// Rays traced in one round of a bake.
     struct Round {

@@ -21,11 +21,10 @@
 
 #include "atlas/cells/order.h"
 #include "base/core/error.h"
-#include "base/core/log.h"
 #include "base/core/state_bytes.h"
 #include "links/direct/deviation.h"
+#include "links/trace/link_casters.h"
 #include "links/trace/shared_directions.h"
-#include "rays/device/query_caster.h"
 #include "rays/paths/samples.h"
 
 namespace lumel {
@@ -67,39 +66,6 @@ constexpr double kDark = 1.0 / 3.0;
 /// Minimum brightness in ray allocation, relative to the mean.
 constexpr double kDarkest = 1e-2;
 
-/// The result of `make`; null, with a debug message, if the device does not support it.
-template <class Make>
-auto unless_refused(const Make& make) -> decltype(make())
-{
-    try {
-        return make();
-    } catch (const Error& error) {
-        log_info(std::string("tracing rays on the CPU: ") + error.what());
-        return nullptr;
-    }
-}
-
-std::unique_ptr<BundleCaster> bundles_for(const gpu::Device& device, const RayScene& rays,
-                                          Rays wanted)
-{
-    const auto make = [&] { return std::make_unique<BundleCaster>(device, rays); };
-    if (wanted == Rays::raster)
-        return make();
-    const bool draws = !device.can_query_rays() && device.info().type != "cpu";
-    return wanted == Rays::automatic && draws ? unless_refused(make) : nullptr;
-}
-
-std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene& rays, Rays wanted)
-{
-    const auto make = [&] { return cast_by_queries(device, rays); };
-    if (wanted == Rays::query)
-        return make();
-    if (wanted == Rays::automatic && device.can_query_rays() && device.info().type != "cpu")
-        if (auto queries = unless_refused(make))
-            return queries;
-    return cast_on_host(rays);
-}
-
 /// Adds the elapsed time to a stage [ms].
 class Stopwatch {
 public:
@@ -121,10 +87,7 @@ private:
 
 LinkRadiosity::LinkRadiosity(const gpu::Device& device, const SolveScene& scene,
                              const LinksOptions& options, const SolveLimits& limits, Parts parts)
-    : LinkRadiosity(scene,
-                    {.rays = caster_for(device, scene.rays, options.rays),
-                     .bundles = bundles_for(device, scene.rays, options.rays)},
-                    options, limits, parts)
+    : LinkRadiosity(scene, casters_for(device, scene.rays, options.rays), options, limits, parts)
 {
 }
 
@@ -287,12 +250,6 @@ double LinkRadiosity::begun() const
     return kDirectOfRound + (1.0 - kDirectOfRound) * double(traced_) / double(tracer_->blocks());
 }
 
-void LinkRadiosity::use(const StoredLinks& links, Then then)
-{
-    stored_ = &links;
-    then_ = then;
-}
-
 void LinkRadiosity::cut()
 {
     if (stored_)
@@ -337,26 +294,6 @@ std::uint32_t LinkRadiosity::interleaved() const
     if (stored_)
         return stored_->interleaved;
     return work_.casters.bundles && options_.interleaved == 0 ? kInterleaved : options_.interleaved;
-}
-
-bool LinkRadiosity::has_known_round() const
-{
-    return stored_ && round_ < stored_->rounds.size();
-}
-
-/// Starts a round of an earlier run again. Lumels that changed have the mean number of rays if they
-/// were buried.
-void LinkRadiosity::begin_known_round()
-{
-    const StoredLinks::Round& round = stored_->rounds[round_];
-    mean_rays_ = round.mean;
-    rays_ = round.rays;
-    rays_.resize(work_.order.size(), 0);
-    for (std::size_t i = 0; i < rays_.size(); ++i)
-        if (rays_[i] == 0 && (changes_.all || changes_.starts[i]))
-            rays_[i] = std::uint16_t(std::lround(mean_rays_));
-    first_rays_ = first_rays(round.rays);
-    begin_links();
 }
 
 void LinkRadiosity::begin_links()
@@ -461,72 +398,6 @@ void LinkRadiosity::share_out_rays()
         const double share = kEvenShare + (1.0 - kEvenShare) * deviation[i] / mean;
         rays_[i] = std::uint16_t(std::clamp(std::lround(mean_rays_ * share), 0l, long(kMaxLinks)));
     }
-}
-
-StoredLinks LinkRadiosity::kept(const std::string& hash) const
-{
-    StoredLinks kept{.scene_hash = hash,
-                     .seed = options_.seed,
-                     .interleaved = interleaved(),
-                     .ray_offset = work_.scene.rays.ray_offset(),
-                     .lumels = lumel_hashes(work_.world, work_.scene.lumels),
-                     .instances = instance_hashes(work_.scene.scene),
-                     .boxes = instance_boxes(work_.scene.scene)};
-    for (std::size_t r = 0; r < means_.size(); ++r)
-        kept.rounds.push_back(stored_round(r, kept.numbers()));
-    keep_places(work_.scene.atlas, kept);
-    return kept;
-}
-
-/// A round by lumel, with numbers of lumels in place of those of sub-lumels.
-StoredLinks::Round LinkRadiosity::stored_round(std::size_t r, const LinkNumbers& stored) const
-{
-    const std::vector<std::uint32_t>& order = work_.order;
-    StoredLinks::Round round{.mean = means_[r], .rays = std::vector<std::uint16_t>(order.size())};
-    for (std::size_t o = 0; o < order.size(); ++o)
-        round.rays[order[o]] = links_[0]->rounds[r][o / kLinkBlock].rays[o % kLinkBlock];
-    const std::vector<std::size_t> first = first_rays(round.rays);
-    const auto as_stored = [&](LinkEnd end) {
-        return numbers_->is_part(end.number())
-                   ? LinkEnd::of(stored.of_part(parts_->lumel(numbers_->part(end.number()))),
-                                 end.cell())
-                   : end;
-    };
-    for (std::uint32_t k = 0; k < kSolutions; ++k) {
-        round.ends[k].resize(first.back());
-        std::vector<LinkEnd>::const_iterator end;
-        for (std::size_t o = 0; o < order.size(); ++o) {
-            if (o % kLinkBlock == 0)
-                end = links_[k]->rounds[r][o / kLinkBlock].ends.begin();
-            for (std::size_t n = first[order[o]]; n < first[order[o] + 1]; ++n)
-                round.ends[k][n] = as_stored(*end++);
-        }
-    }
-    return round;
-}
-
-std::uint64_t LinkRadiosity::traced() const
-{
-    std::uint64_t rays = 0;
-    for_each_block([&](const LinkBlock& block) { rays += block.traced; });
-    return rays;
-}
-
-std::uint64_t LinkRadiosity::sent() const
-{
-    std::uint64_t rays = 0;
-    for_each_block([&](const LinkBlock& block) { rays += block.ends.size(); });
-    return rays;
-}
-
-template <class Visit>
-void LinkRadiosity::for_each_block(const Visit& visit) const
-{
-    for (const std::optional<LinkTable>& links : links_)
-        if (links)
-            for (const std::vector<LinkBlock>& round : links->rounds)
-                for (const LinkBlock& block : round)
-                    visit(block);
 }
 
 /// Solves for all bounces over the links of each solution.

@@ -61,7 +61,7 @@ public:
         return work_.casters.bundles ? "raster" : work_.caster().name();
     }
 
-    /// What a solver does after it has the links of an earlier run.
+    /// Work that follows the links of an earlier run.
     enum class Then {
         end,  ///< adds no links; may refine direct light
         add,  ///< adds links until the target error is reached

@@ -37,7 +37,7 @@ constexpr std::uint32_t kOriginPair = 0, kDirectionPair = 1, kPassPair = 2, kFir
 
 }  // namespace
 
-/// What a ray meets: a lumel, or an end.
+/// Result of a ray: the lumel it hits, or the number of its end.
 struct LinkTracer::Landing {
     std::uint32_t lumel = kNoLumel;
     std::uint32_t end = 0;  ///< number, without a lumel
@@ -46,7 +46,7 @@ struct LinkTracer::Landing {
     glm::vec3 position{0.0f};
 };
 
-/// A ray that is reflected, crosses glass or may be hidden from its cell: what is known of it.
+/// A ray that needs more than its first hit: one near its lumel, behind glass, or on a cut lumel.
 struct LinkTracer::Path {
     PathSamples samples;
     std::uint32_t slot;
@@ -282,7 +282,7 @@ LinkTracer::Landing LinkTracer::land(const RaySpan& ray, const RayHit& hit, floa
             .position = position};
 }
 
-/// Ends first rays, but for those that need a path.
+/// Ends far rays at their first hit, and begins the paths of the others.
 void LinkTracer::meet_first(RayBatch& wave) const
 {
     std::size_t n = 0;

@@ -139,6 +139,38 @@ TEST(KeptLight, OfAThingThatMovedTracesFewLinksAndIsThatOfANewTracing)
     EXPECT_EQ(over.light.irradiance(), anew.light.irradiance());
 }
 
+TEST(KeptLight, OfABlendedThingThatMovedIsThatOfANewTracing)
+{
+    Scene scene = test::open_box();
+    const std::uint32_t block = find_instance(scene, "short block");
+    for (const Primitive& primitive :
+         scene.meshes[std::size_t(scene.instances[block].mesh)].primitives) {
+        Material& veil = scene.materials[std::size_t(primitive.material)];
+        veil.alpha_mode = AlphaMode::blend;
+        veil.base_color.a = 0.5f;
+    }
+    const Lit before(scene);
+    const StoredLinks kept = before.kept();
+    const Scene moved = with_block_moved(scene);
+    Lit over(moved, before, &kept), anew(moved, before, nullptr);
+    EXPECT_EQ(different_links(over.kept(), anew.kept()), 0u);
+    EXPECT_EQ(over.light.irradiance(), anew.light.irradiance());
+}
+
+TEST(KeptLinks, OfABakeThatIsStoppedWithinARoundAreThoseOfWholeRounds)
+{
+    const SolveScene scene(test::open_box(), AtlasOptions{.size = kSide});
+    LinkRadiosity light(scene, {}, {.target_error = 1e-3});
+    for (int rounds = 0; rounds < 2;) {
+        const std::uint64_t shots = light.state().shots;
+        light.step();
+        rounds += light.state().shots > shots ? 1 : 0;
+        if (rounds > 0) {
+            EXPECT_EQ(light.kept("hash").shots(), light.state().shots);
+        }
+    }
+}
+
 TEST(KeptLight, OverLinksOfAnotherSeedTracesAllOfThem)
 {
     StoredLinks kept = Lit(test::open_box()).kept();
