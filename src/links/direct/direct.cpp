@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "atlas/cells/lumel_samples.h"
 #include "base/core/luminance.h"
 #include "base/core/parallel.h"
 #include "lights/source_estimate.h"
@@ -47,7 +48,7 @@ constexpr double kUncertain = 0.02, kUncertainOfAll = 0.01;
 /// Maximum number of sources sampled by a point that is not a lumel.
 constexpr std::uint32_t kMaxSought = 2;
 
-/// Offset between the random streams of few and many rays.
+/// Random stream of the first pass of many rays; later ones follow by the rays before them.
 constexpr std::uint32_t kManyStream = 0x10000;
 
 /// Dimension pairs of a ray's random numbers.
@@ -212,15 +213,17 @@ void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t 
     const bool many = more > 0, alone = !to.rest,
                small = alone && work_.sources.is_small(to.source);
     const std::uint32_t times = small ? kTimesToSmall : 1;
-    const std::uint32_t begin = many ? times * taken_[i] >> to.halved : 0;
     const std::uint32_t rays = times * (many ? more >> to.halved : kFewRays);
     wave.groups.push_back({to.source, alone, wave.looks.size(), rays});
     for (std::uint32_t h = 0; h < 2; ++h) {
-        const std::uint32_t stream =
-            PathSamples::hash(PathSamples::hash(seed_, 2 * i + h),
-                              2 * to.source + (alone ? 0 : 1) + (many ? kManyStream : 0));
-        for (std::uint32_t k = begin; k < begin + rays; ++k) {
-            const PathSamples samples(stream, k);
+        const std::uint32_t pass = many ? kManyStream + taken_[i] : 0;
+        const std::uint32_t of_source = 2 * to.source + (alone ? 0 : 1);
+        const LumelSamples own(
+            work_.lumels()[i], std::uint32_t(work_.scene.lumels.width),
+            PathSamples::hash(PathSamples::hash(PathSamples::hash(seed_, h), pass), of_source),
+            rays);
+        for (std::uint32_t k = 0; k < rays; ++k) {
+            const PathSamples samples = own[k];
             const RayOrigin start = work_.starts.start(i, samples.stratified(kLumelPair));
             const Choice choice = alone ? Choice{to.source, 1.0f}
                                         : choose(*to.rest, samples.stratified(kLampChoicePair).x);

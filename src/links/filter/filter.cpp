@@ -1,72 +1,109 @@
 #include "links/filter/filter.h"
 
 #include <algorithm>
-#include <memory>
+#include <limits>
 
 #include "atlas/lumels/sides.h"
 #include "base/core/parallel.h"
-#include "links/filter/filter_tile.h"
 
 namespace lumel {
 namespace {
 
 constexpr std::size_t kLumelsPerTask = 256;
+/// Direct light within this distance of a lumel whose halves differ is filtered [lumels].
+constexpr int kUncertainReach = 2;
+/// Radius of the square over which nearness is averaged [lumels].
+constexpr int kNearnessReach = 2;
 
-glm::vec3 weighted(const std::array<Inner, 3>& sum, const Inner& weight, std::size_t t)
+/// Mean over the square around each lumel of the chart.
+std::vector<float> smoothed(const FilterChart& chart, const std::vector<float>& value, int reach)
 {
-    return glm::vec3(sum[0][t], sum[1][t], sum[2][t]) / weight[t];
+    std::vector<float> result(value.size(), 0.0f);
+    for (int y = 0; y < chart.height; ++y)
+        for (int x = 0; x < chart.width; ++x) {
+            float sum = 0.0f, count = 0.0f;
+            for (int ny = std::max(y - reach, 0); ny <= std::min(y + reach, chart.height - 1); ++ny)
+                for (int nx = std::max(x - reach, 0); nx <= std::min(x + reach, chart.width - 1);
+                     ++nx)
+                    if (chart.lumel[chart.at(nx, ny)] != kNoLumel) {
+                        sum += value[chart.at(nx, ny)];
+                        count += 1.0f;
+                    }
+            result[chart.at(x, y)] = sum / std::max(count, 1.0f);
+        }
+    return result;
 }
 
-/// Adds lumel i: `one` and `other` are the filtered estimates a and b of the cross-filtered
-/// solutions.
-void take(const glm::vec3& a, const glm::vec3& b, const glm::vec3& one, const glm::vec3& other,
-          std::uint32_t i, Mean& mean)
+template <std::size_t Count>
+glm::vec3 estimate_of(const FitLight<Count>& light, std::size_t k)
 {
-    constexpr float kShare = 1.0f / float(kSolutions);
-    const glm::vec3 d = one - other;
-    mean.light[i] += 0.5f * kShare * (one + other);
-    // d² is twice the variance of one; the mean of all three pairs has a third of it.
-    mean.noise[i] += kShare * glm::dot(d, d) / 6.0f;
-    mean.wrong[i] += kShare * glm::dot(one - a, other - b);
+    return {light[3 * k], light[3 * k + 1], light[3 * k + 2]};
 }
 
 }  // namespace
 
 ChartFilter::ChartFilter(const LinkWork& work, const SubLumels& parts,
-                         const std::vector<float>& nearest)
+                         const RayDistances& distances)
     : work_(work),
       parts_(parts),
       by_side_(lumels_by_side(work.scene.lumels)),
-      nearest_(nearest),
-      steps_(work.world.size())
+      places_(find_places()),
+      steps_(work.world.size()),
+      nearness_(work.world.size())
 {
     parallel_for(work.world.size(), kLumelsPerTask, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            steps_[i] = find_steps(i);
+        for (std::size_t i = first; i < last; ++i) {
+            steps_[i] = find_steps(i, distances.nearest);
+            nearness_[i] = work.world[i].size * distances.inverse[i];
+        }
     });
 }
 
 std::uint64_t ChartFilter::bytes(std::size_t lumels, std::size_t texels)
 {
     constexpr std::size_t kOfMean = sizeof(glm::vec3) + 2 * sizeof(float);
+    constexpr std::size_t kOfChart = 6 * sizeof(FitLight<kSolutions>);
     return 2 * texels * sizeof(std::uint32_t) +
-           lumels * (sizeof(std::uint8_t) + (kSolutions + 1) * sizeof(float) + kBells * kOfMean);
+           lumels * (sizeof(std::uint8_t) + sizeof(float) + kOfMean + kOfChart);
+}
+
+std::vector<ChartFilter::Place> ChartFilter::find_places() const
+{
+    const Lumels& lumels = work_.scene.lumels;
+    std::vector<Place> all;
+    for (const Lumel& lumel : lumels.lumels) {
+        const std::size_t key = place_by_side(lumel.chart, is_back(lumel));
+        for (std::size_t n = all.size(); n <= key; ++n)
+            all.push_back({glm::ivec2(std::numeric_limits<int>::max()), glm::ivec2(-1),
+                           std::uint32_t(n / 2), n % 2 == 1});
+        const glm::ivec2 at(int(lumel.texel) % lumels.width, int(lumel.texel) / lumels.width);
+        all[key].low = glm::min(all[key].low, at);
+        all[key].high = glm::max(all[key].high, at);
+    }
+    std::erase_if(all, [](const Place& place) { return place.high.x < place.low.x; });
+    const auto texels = [](const Place& place) {
+        const glm::ivec2 size = place.high - place.low + 1;
+        return std::size_t(size.x) * std::size_t(size.y);
+    };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const Place& a, const Place& b) { return texels(a) > texels(b); });
+    return all;
 }
 
 /// Bits of the neighbours on the same chart and side across which the filter may step.
-std::uint8_t ChartFilter::find_steps(std::size_t i) const
+std::uint8_t ChartFilter::find_steps(std::size_t i, const std::vector<float>& nearest) const
 {
     const Lumel& lumel = work_.lumels()[i];
     if ((lumel.flags & kLumelBuried) || parts_.is_cut(i))
         return 0;
     const int width = work_.scene.lumels.width, x = int(lumel.texel) % width,
-              y = int(lumel.texel) / width, side = lumel.flags & kLumelBack ? 1 : 0;
+              y = int(lumel.texel) / width, side = is_back(lumel) ? 1 : 0;
     unsigned steps = 0;
     for (unsigned s = 0; s < kSteps.size(); ++s) {
         const std::uint32_t j =
             lit_lumel_at(work_.scene.lumels, by_side_, x + kSteps[s].x, y + kSteps[s].y, side);
         if (j != kNoLumel && work_.lumels()[j].chart == lumel.chart && !parts_.is_cut(j) &&
-            may_step(i, j, std::min(nearest_[i], nearest_[j])))
+            may_step(i, j, std::min(nearest[i], nearest[j])))
             steps |= 1u << s;
     }
     return std::uint8_t(steps);
@@ -84,81 +121,91 @@ bool ChartFilter::may_step(std::size_t i, std::size_t j, float nearest) const
                                  0.0f, std::uint32_t(i));
 }
 
-/// Fills the tile, except variances. Returns false if it has no lumels.
-bool ChartFilter::fill(FilterTile& tile, int left, int top, int side, const Solutions& found) const
+FilterChart ChartFilter::chart_at(const Place& place) const
 {
-    bool any = false;
-    for (int y = -kHalo; y < kTile + kHalo; ++y)
-        for (int x = -kHalo; x < kTile + kHalo; ++x) {
-            const std::size_t t = wide_at(x, y);
-            const std::uint32_t i = tile.lumel[t] =
-                lit_lumel_at(work_.scene.lumels, by_side_, left + x, top + y, side);
-            const bool is = i != kNoLumel;
-            any = any || (is && x >= 0 && x < kTile && y >= 0 && y < kTile);
-            tile.chart[t] = is ? std::int32_t(work_.lumels()[i].chart) : -1;
-            tile.steps[t] = is ? steps_[i] : std::uint8_t(0);
-            tile.size[t] = is ? work_.world[i].size : 0.0f;
-            tile.nearest[t] = is ? nearest_[i] : 0.0f;
-            for (int c = 0; c < 3; ++c) {
-                const auto axis = std::size_t(c);
-                tile.centre[axis][t] = is ? work_.world[i].centre[c] : 0.0f;
-                tile.normal[axis][t] = is ? work_.world[i].normal[c] : 0.0f;
-                for (std::uint32_t k = 0; k < kSolutions; ++k)
-                    tile.light[k][axis][t] = is ? found[k][i][c] : 0.0f;
-            }
+    const glm::ivec2 size = place.high - place.low + 1;
+    const std::size_t texels = std::size_t(size.x) * std::size_t(size.y);
+    FilterChart chart{.width = size.x, .height = size.y};
+    chart.lumel.assign(texels, kNoLumel);
+    chart.steps.assign(texels, 0);
+    chart.normal.assign(texels, glm::vec3(0.0f));
+    chart.nearness.assign(texels, 0.0f);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const std::uint32_t i = lit_lumel_at(work_.scene.lumels, by_side_, place.low.x + x,
+                                                 place.low.y + y, place.is_back ? 1 : 0);
+            if (i == kNoLumel || work_.lumels()[i].chart != place.chart || parts_.is_cut(i))
+                continue;
+            const std::size_t t = chart.at(x, y);
+            chart.lumel[t] = i;
+            chart.steps[t] = steps_[i];
+            chart.normal[t] = work_.world[i].normal;
+            chart.nearness[t] = nearness_[i];
         }
-    return any;
+    chart.nearness = smoothed(chart, chart.nearness, kNearnessReach);
+    return chart;
 }
 
-/// Calls visit(tile) for each tile with lumels, in parallel.
-template <class Visit>
-void ChartFilter::for_each_tile(const Solutions& found, const Visit& visit) const
+/// Calls visit(chart, filtered estimates) for each chart, in parallel.
+template <std::size_t Count, class Visit>
+void ChartFilter::filter(const std::array<const Estimates*, Count>& found, const PyramidRule& rule,
+                         const Visit& visit) const
 {
-    const std::size_t across = std::size_t((work_.scene.lumels.width + kTile - 1) / kTile),
-                      down = std::size_t((work_.scene.lumels.height + kTile - 1) / kTile);
-    parallel_for(2 * across * down, 1, [&](std::size_t first, std::size_t last) {
-        const auto tile = std::make_unique<FilterTile>();
+    parallel_for(places_.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t n = first; n < last; ++n) {
-            const int left = int(n / 2 % across) * kTile, top = int(n / 2 / across) * kTile;
-            if (fill(*tile, left, top, int(n % 2), found))
-                visit(*tile);
+            const FilterChart chart = chart_at(places_[n]);
+            visit(chart, filter_chart<Count>(chart, found, rule));
         }
     });
 }
 
-std::vector<Mean> ChartFilter::filter(const Solutions& found) const
+Mean ChartFilter::indirect(const Solutions& found) const
 {
-    std::array<std::vector<float>, kSolutions> variance;
-    variance.fill(std::vector<float>(work_.world.size()));
-    for_each_tile(found, [&](const FilterTile& tile) {
-        Inner inner;
-        for (std::uint32_t k = 0; k < kSolutions; ++k) {
-            find_variance(tile, k, inner);
-            for_each_lumel(tile, [&](std::uint32_t i, std::size_t t, std::size_t) {
-                variance[k][i] = inner[t];
-            });
-        }
-    });
-    const std::vector<float> none(work_.world.size(), 0.0f);
-    std::vector<Mean> result(kBells, {Estimates(work_.world.size(), glm::vec3(0.0f)), none, none});
-    for_each_tile(found, [&](FilterTile& tile) {
-        for (std::size_t t = 0; t < tile.lumel.size(); ++t)
-            for (std::uint32_t k = 0; k < kSolutions; ++k)
-                tile.variance[k][t] = tile.lumel[t] == kNoLumel ? 0.0f : variance[k][tile.lumel[t]];
-        const auto filtered = std::make_unique<FilteredTiles>();
-        filter_tile(tile, *filtered);
-        for (std::size_t b = 0; b < kBells; ++b)
-            for (std::uint32_t k = 0; k < kSolutions; ++k) {
-                const FilteredTile& of = (*filtered)[b][k];
-                const Estimates &one = found[(k + 1) % kSolutions],
-                                &other = found[(k + 2) % kSolutions];
-                for_each_lumel(tile, [&](std::uint32_t i, std::size_t t, std::size_t) {
-                    take(one[i], other[i], weighted(of.one, of.weight, t),
-                         weighted(of.other, of.weight, t), i, result[b]);
-                });
+    Mean mean = plain_mean(found);
+    filter<kSolutions>(
+        {&found[0], &found[1], &found[2]}, rule_of_indirect(),
+        [&](const FilterChart& chart, const std::vector<FitLight<kSolutions>>& filtered) {
+            for (std::size_t t = 0; t < filtered.size(); ++t) {
+                const std::uint32_t i = chart.lumel[t];
+                if (i == kNoLumel)
+                    continue;
+                std::array<glm::vec3, kSolutions> light, bend;
+                for (std::size_t k = 0; k < kSolutions; ++k) {
+                    light[k] = estimate_of<kSolutions>(filtered[t], k);
+                    bend[k] = light[k] - found[k][i];
+                }
+                mean.light[i] = glm::max((light[0] + light[1] + light[2]) / 3.0f, glm::vec3(0.0f));
+                mean.noise[i] = float(spread(light[0], light[1], light[2]) / 18.0);
+                mean.wrong[i] = (glm::dot(bend[0], bend[1]) + glm::dot(bend[1], bend[2]) +
+                                 glm::dot(bend[2], bend[0])) /
+                                3.0f;
             }
-    });
-    return result;
+        });
+    return mean;
+}
+
+Mean ChartFilter::direct(const Estimates& one, const Estimates& other) const
+{
+    Mean mean = plain_mean(one, other);
+    filter<2>({&one, &other}, rule_of_direct(),
+              [&](const FilterChart& chart, const std::vector<FitLight<2>>& filtered) {
+                  std::vector<float> differs(chart.lumel.size(), 0.0f);
+                  for (std::size_t t = 0; t < differs.size(); ++t)
+                      if (const std::uint32_t i = chart.lumel[t]; i != kNoLumel)
+                          differs[t] = one[i] != other[i] ? 1.0f : 0.0f;
+                  const std::vector<float> uncertain = smoothed(chart, differs, kUncertainReach);
+                  for (std::size_t t = 0; t < filtered.size(); ++t) {
+                      const std::uint32_t i = chart.lumel[t];
+                      if (i == kNoLumel || uncertain[t] == 0.0f)
+                          continue;
+                      const glm::vec3 a = estimate_of<2>(filtered[t], 0),
+                                      b = estimate_of<2>(filtered[t], 1);
+                      mean.light[i] = glm::max(0.5f * (a + b), glm::vec3(0.0f));
+                      mean.noise[i] = 0.25f * glm::dot(a - b, a - b);
+                      mean.wrong[i] = glm::dot(a - one[i], b - other[i]);
+                  }
+              });
+    return mean;
 }
 
 }  // namespace lumel

@@ -1,9 +1,5 @@
 #pragma once
-// Edge-preserving filter over the lumels of a chart.
-//
-// [BCM05] A. Buades, B. Coll, J.-M. Morel. A Non-Local Algorithm for Image Denoising. CVPR 2005.
-// [RKZ12] F. Rousselle, C. Knaus, M. Zwicker. Adaptive Rendering with Non-Local Means Filtering.
-//         SIGGRAPH Asia 2012.
+// Edge-preserving filter over the lumels of each chart. See links/filter/pyramid.h.
 
 #include <array>
 #include <cstdint>
@@ -11,41 +7,56 @@
 
 #include "links/direct/link_work.h"
 #include "links/direct/solutions.h"
+#include "links/filter/filter_chart.h"
 #include "links/filter/mean.h"
+#include "links/filter/pyramid.h"
 
 namespace lumel {
 
-struct FilterTile;
+/// Of the rays of each lumel.
+struct RayDistances {
+    std::vector<float> nearest;  ///< [N] to the nearest hit [m]
+    std::vector<float> inverse;  ///< [N] mean of 1 / distance [1/m]; of the sky 0
+};
 
-/// Averages lumels with those around them on their chart that are similar in a guide [RKZ12]. Does
-/// not mix lumels of different normal or size, or across geometry.
+/// Fits light over the lumels of charts. Does not mix lumels of different normal, or across
+/// geometry.
 class ChartFilter {
 public:
-    /// All arguments must outlive this. nearest [N]: distance from each lumel to its nearest ray
-    /// hit [m].
-    ChartFilter(const LinkWork& work, const SubLumels& parts, const std::vector<float>& nearest);
+    /// The work must outlive this.
+    ChartFilter(const LinkWork& work, const SubLumels& parts, const RayDistances& distances);
 
-    /// Memory of this and of the result of filter() [bytes].
+    /// Memory of this and of a filter at work [bytes].
     static std::uint64_t bytes(std::size_t lumels, std::size_t texels);
 
-    /// Returns one Mean per filter width, narrowest first. Weights from solution k filter the
-    /// cross-filtered solutions k + 1 and k + 2, so that they are independent of the filtered data;
-    /// only the variance in the weights is estimated from the difference of those two. Lumels
-    /// without light stay dark.
-    std::vector<Mean> filter(const Solutions& found) const;
+    /// Filtered mean of the solutions.
+    Mean indirect(const Solutions& found) const;
+    /// Filtered mean of two halves of direct light. Lumels far from any whose halves differ keep
+    /// their light: it is exact.
+    Mean direct(const Estimates& one, const Estimates& other) const;
 
 private:
-    std::uint8_t find_steps(std::size_t lumel) const;
+    /// A side of a chart in the atlas.
+    struct Place {
+        glm::ivec2 low, high;  ///< first and last texel
+        std::uint32_t chart;
+        bool is_back;
+    };
+
+    std::vector<Place> find_places() const;
+    std::uint8_t find_steps(std::size_t lumel, const std::vector<float>& nearest) const;
     bool may_step(std::size_t i, std::size_t j, float nearest) const;
-    bool fill(FilterTile& tile, int left, int top, int side, const Solutions& found) const;
-    template <class Visit>
-    void for_each_tile(const Solutions& found, const Visit& visit) const;
+    FilterChart chart_at(const Place& place) const;
+    template <std::size_t Count, class Visit>
+    void filter(const std::array<const Estimates*, Count>& found, const PyramidRule& rule,
+                const Visit& visit) const;
 
     const LinkWork& work_;
     const SubLumels& parts_;
     std::vector<std::uint32_t> by_side_;  ///< [texels][2]
-    const std::vector<float>& nearest_;
-    std::vector<std::uint8_t> steps_;  ///< [N] bit s: the filter may step over kSteps[s]
+    std::vector<Place> places_;           ///< largest first
+    std::vector<std::uint8_t> steps_;     ///< [N] bit s: the filter may step over kSteps[s]
+    std::vector<float> nearness_;         ///< [N] as in FilterChart
 };
 
 }  // namespace lumel

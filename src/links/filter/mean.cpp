@@ -3,10 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "links/filter/filter.h"
-
 namespace lumel {
-namespace {
+
+double spread(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+{
+    const glm::vec3 ab = a - b, bc = b - c, ca = c - a;
+    return double(glm::dot(ab, ab) + glm::dot(bc, bc) + glm::dot(ca, ca));
+}
+
+double SquaredError::sum() const
+{
+    return noise_ + std::max(wrong_, 0.0) + std::sqrt(squares_);
+}
 
 Mean plain_mean(const Solutions& found)
 {
@@ -22,39 +30,16 @@ Mean plain_mean(const Solutions& found)
     return mean;
 }
 
-double squared_error(const Mean& mean)
+Mean plain_mean(const Estimates& one, const Estimates& other)
 {
-    SquaredError error;
-    for (std::size_t i = 0; i < mean.light.size(); ++i)
-        error.add(mean, i);
-    return error.sum();
-}
-
-}  // namespace
-
-double spread(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
-{
-    const glm::vec3 ab = a - b, bc = b - c, ca = c - a;
-    return double(glm::dot(ab, ab) + glm::dot(bc, bc) + glm::dot(ca, ca));
-}
-
-double SquaredError::sum() const
-{
-    return noise_ + std::max(wrong_, 0.0) + std::sqrt(squares_);
-}
-
-Mean mean_of(const Solutions& found, const ChartFilter* filter)
-{
-    Mean best = plain_mean(found);
-    if (!filter)
-        return best;
-    double least = squared_error(best);
-    for (Mean& filtered : filter->filter(found))
-        if (const double error = squared_error(filtered); error < least) {
-            least = error;
-            best = std::move(filtered);
-        }
-    return best;
+    const std::size_t count = one.size();
+    Mean mean{Estimates(count), std::vector<float>(count), std::vector<float>(count, 0.0f)};
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 apart = one[i] - other[i];
+        mean.light[i] = 0.5f * (one[i] + other[i]);
+        mean.noise[i] = 0.25f * glm::dot(apart, apart);
+    }
+    return mean;
 }
 
 }  // namespace lumel

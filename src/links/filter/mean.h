@@ -1,5 +1,5 @@
 #pragma once
-// Mean of several solutions, and its error.
+// Mean of several estimates, and its error.
 
 #include <cstddef>
 #include <vector>
@@ -7,8 +7,6 @@
 #include "links/direct/solutions.h"
 
 namespace lumel {
-
-class ChartFilter;
 
 struct Mean {
     Estimates light;           ///< [N] [lx]
@@ -41,7 +39,8 @@ private:
     double noise_ = 0.0, wrong_ = 0.0, squares_ = 0.0;
 };
 
-/// The mean; with a filter, filtered wherever that reduces the error.
-Mean mean_of(const Solutions& found, const ChartFilter* filter);
+/// Of independent solutions, and of two independent halves.
+Mean plain_mean(const Solutions& found);
+Mean plain_mean(const Estimates& one, const Estimates& other);
 
 }  // namespace lumel

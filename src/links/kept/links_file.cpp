@@ -35,7 +35,7 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
 // 1: rays by the number of a lumel; 2: one number of rays, in a grid of directions
-constexpr std::uint64_t kVersion = 3;
+constexpr std::uint64_t kVersion = 4;
 constexpr std::uint32_t kMaxSide = 65536;      ///< side of an atlas [texels]
 constexpr std::uint32_t kWord = 64;            ///< [bits]
 constexpr std::uint32_t kMaxInterleaved = 64;  ///< side of sets of directions [texels]

@@ -8,7 +8,7 @@
 #include "atlas/lumels/sides.h"
 #include "base/core/luminance.h"
 #include "base/core/parallel.h"
-#include "links/filter/filter_tile.h"
+#include "links/live/filter_tile.h"
 
 namespace lumel {
 namespace {
@@ -179,7 +179,6 @@ void DisplayFilter::fill(const Tile& of, FilterTile& tile) const
             tile.chart[t] = is ? std::int32_t(place_.lumels()[i].chart) : -1;
             tile.steps[t] = is ? steps_[i] : std::uint8_t(0);
             tile.size[t] = is ? place_.world[i].size : 0.0f;
-            tile.nearest[t] = is ? nearest_[i] : 0.0f;
             tile.variance[0][t] = is ? noise_[i] : 0.0f;
             for (int c = 0; c < 3; ++c) {
                 const auto axis = std::size_t(c);

@@ -13,7 +13,7 @@ namespace lumel {
 
 struct FilterTile;
 
-/// The narrow chart filter (links/filter/filter_tile.h) of radius 2. Its weights come from light
+/// The narrow chart filter (links/live/filter_tile.h) of radius 2. Its weights come from light
 /// that had converged, and are reused for later light. Lumels without weights are shown unfiltered.
 class DisplayFilter {
 public:

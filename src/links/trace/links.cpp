@@ -191,8 +191,8 @@ void LinkRadiosity::step()
 template <class Archive>
 void LinkRadiosity::state(Archive& archive)
 {
-    archive(*direct_, round_, mean_rays_, means_, rays_, traced_, mean_.light, mean_.noise,
-            mean_.wrong, mean_light_, all_, dark_, state_, times_);
+    archive(*direct_, direct_light_, round_, mean_rays_, means_, rays_, traced_, mean_.light,
+            mean_.noise, mean_.wrong, mean_light_, all_, dark_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
         archive(*links_[k], sources_[k].rays, received_[k]);
 }
@@ -225,10 +225,10 @@ void LinkRadiosity::check_sizes() const
     const bool is_tracing = stage_ == Stage::links || stage_ == Stage::solve;
     const std::size_t traced = is_tracing ? traced_ : tracer_->blocks();
     bool fits = stage_ > Stage::begin && stage_ <= Stage::solve && direct_->fits() &&
-                is(rays_.size(), lumels) && is(mean_.light.size(), lumels) &&
-                is(mean_.noise.size(), lumels) && is(mean_.wrong.size(), lumels) &&
-                traced_ <= tracer_->blocks() && means_.size() == round_ &&
-                (state_.shots > 0) == !mean_.light.empty() &&
+                is(rays_.size(), lumels) && is(direct_light_.size(), lumels) &&
+                is(mean_.light.size(), lumels) && is(mean_.noise.size(), lumels) &&
+                is(mean_.wrong.size(), lumels) && traced_ <= tracer_->blocks() &&
+                means_.size() == round_ && (state_.shots > 0) == !mean_.light.empty() &&
                 (!is_tracing || (mean_rays_ > 0.0 && rays_.size() == lumels));
     for (std::size_t k = 0; k < kSolutions; ++k)
         fits = fits && links_[k]->rounds.size() == round_ + (is_tracing ? 1 : 0) &&
@@ -556,34 +556,35 @@ void LinkRadiosity::combine()
         for (std::size_t i = 0; i < found[k].size(); ++i)
             found[k][i] = brought(i, k);
     }
-    std::vector<float> near(work_.lumels().size(), NearLink::kNoHit);
-    std::optional<ChartFilter> filter;
-    if (options_.filter) {
-        for (const std::optional<LinkTable>& links : links_)
-            lower_to_hits(work_, *parts_, *numbers_, *links, near);
-        filter.emplace(work_, *parts_, near);
-    }
-    mean_ = mean_of(found, filter ? &*filter : nullptr);
+    filter_.reset();
+    if (options_.filter)
+        filter_.emplace(work_, *parts_,
+                        find_distances(work_, *parts_, *numbers_,
+                                       std::array{&*links_[0], &*links_[1], &*links_[2]}));
+    mean_ = filter_ ? filter_->indirect(found) : plain_mean(found);
 }
 
-/// Adds the error of direct light to that of rays: the difference of two independent halves has
-/// four times the variance of their mean.
+/// Adds the error of direct light to that of rays.
 void LinkRadiosity::estimate()
 {
     struct Sums {
         SquaredError rays;
-        double direct = 0.0, light = 0.0, count = 0.0;
+        SquaredError direct;
+        double light = 0.0, count = 0.0;
 
         /// √(Σ d² / 3n) / (Σ H / 3n), squared
         double relative(double squares) const
         {
             return light > 0.0 ? 3.0 * count * squares / (light * light) : 0.0;
         }
-        Errors errors() const { return {relative(rays.sum()), relative(direct)}; }
+        Errors errors() const { return {relative(rays.sum()), relative(direct.sum())}; }
     };
+    const Mean direct = filter_ ? filter_->direct(direct_->half(0), direct_->half(1))
+                                : plain_mean(direct_->half(0), direct_->half(1));
+    direct_light_ = direct.light;
     const auto add = [&](Sums& sums, std::size_t i, double light) {
-        const glm::vec3 d = 0.5f * (direct_->half(0)[i] - direct_->half(1)[i]);
-        sums.direct += parts_wanted_ == Parts::indirect ? 0.0 : double(glm::dot(d, d));
+        if (parts_wanted_ != Parts::indirect)
+            sums.direct.add(direct, i);
         if (!mean_.light.empty())
             sums.rays.add(mean_, i);
         sums.light += light;
@@ -612,7 +613,9 @@ void LinkRadiosity::estimate()
 /// Irradiance at a lumel, of the requested parts of light [lx].
 glm::vec3 LinkRadiosity::arrived(std::size_t i) const
 {
-    const glm::vec3 direct = parts_wanted_ == Parts::indirect ? glm::vec3(0.0f) : direct_->mean(i);
+    const glm::vec3 direct = parts_wanted_ == Parts::indirect ? glm::vec3(0.0f)
+                             : direct_light_.empty()          ? direct_->mean(i)
+                                                              : direct_light_[i];
     return mean_.light.empty() ? direct : direct + mean_.light[i];
 }
 

@@ -142,7 +142,9 @@ private:
     std::array<std::optional<LinkTable>, kSolutions> links_;
     std::array<SourceTerm, kSolutions> sources_;               ///< of the last sweeps
     std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] without direct light
-    Mean mean_;                                                ///< their mean
+    std::optional<ChartFilter> filter_;                        ///< by the links so far
+    Mean mean_;                                                ///< filtered mean of solutions
+    std::vector<glm::vec3> direct_light_;                      ///< [N] [lx] filtered
     Stage stage_ = Stage::begin;
     std::uint32_t round_ = 0;          ///< current round
     double mean_rays_ = 0.0;           ///< per lumel in the round, in each solution

@@ -1,6 +1,7 @@
 #include "links/trace/source_term.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/core/parallel.h"
 
@@ -87,28 +88,37 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
     return sum;
 }
 
-/// Of far hits, the distance between the lumels: off by a side at most, where hits are kNearSides
-/// away or more.
-void lower_to_hits(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-                   const LinkTable& links, std::vector<float>& nearest)
+/// Of far hits, the distance between the lumel's centre and the cell's: off by a side at most,
+/// where hits are kNearSides away or more.
+RayDistances find_distances(const LinkWork& work, const SubLumels& parts,
+                            const LinkNumbers& numbers, std::span<const LinkTable* const> tables)
 {
-    for_each_row(work, parts, links, [&](const LinkRow& row, std::uint32_t i) {
-        const WorldLumel& lumel = work.world[i];
-        for (const LinkEnd end : row.ends) {
-            if (!numbers.is_part(end.number()))
-                continue;
-            const std::uint32_t j = parts.lumel(numbers.part(end.number()));
-            const WorldLumel& hit = work.world[j];
-            if (glm::distance(lumel.centre, hit.centre) - hit.size >= nearest[i])
-                continue;  // nor is its cell nearer
-            const glm::vec3 at = work.cells.centre(j, hit.centre, end.cell());
-            nearest[i] =
-                std::min(nearest[i], std::max(glm::distance(lumel.centre, at),
-                                              kNearSides * std::max(lumel.size, hit.size)));
-        }
-        for (const NearLink& near : row.near)
-            nearest[i] = std::min(nearest[i], near.distance);
-    });
+    const std::size_t count = work.lumels().size();
+    RayDistances result{std::vector<float>(count, NearLink::kNoHit), std::vector<float>(count)};
+    std::vector<std::uint32_t> rays(count, 0);
+    const auto add = [&](std::uint32_t i, float distance) {
+        result.nearest[i] = std::min(result.nearest[i], distance);
+        result.inverse[i] += 1.0f / distance;
+    };
+    for (const LinkTable* links : tables)
+        for_each_row(work, parts, *links, [&](const LinkRow& row, std::uint32_t i) {
+            const WorldLumel& lumel = work.world[i];
+            rays[i] += std::uint32_t(row.ends.size());
+            for (const LinkEnd end : row.ends) {
+                if (!numbers.is_part(end.number()))
+                    continue;
+                const std::uint32_t j = parts.lumel(numbers.part(end.number()));
+                const WorldLumel& hit = work.world[j];
+                const glm::vec3 at = work.cells.centre(j, hit.centre, end.cell());
+                add(i, std::max(glm::distance(lumel.centre, at),
+                                kNearSides * std::max(lumel.size, hit.size)));
+            }
+            for (const NearLink& near : row.near)
+                add(i, std::max(near.distance, std::numeric_limits<float>::min()));
+        });
+    for (std::size_t i = 0; i < count; ++i)
+        result.inverse[i] /= float(std::max(rays[i], 1u));
+    return result;
 }
 
 }  // namespace lumel

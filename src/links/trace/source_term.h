@@ -3,11 +3,13 @@
 // bounces.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "links/direct/direct.h"
+#include "links/filter/filter.h"
 #include "links/kept/link_table.h"
 
 namespace lumel {
@@ -46,8 +48,8 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
                             const LinkNumbers& numbers, const ReflectedLight& reflected,
                             const LinkTable& links);
 
-/// nearest [N]: lowered to about the distance of the nearest hit of each lumel's rays [m].
-void lower_to_hits(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-                   const LinkTable& links, std::vector<float>& nearest);
+/// Distances that the rays of several tables went, about.
+RayDistances find_distances(const LinkWork& work, const SubLumels& parts,
+                            const LinkNumbers& numbers, std::span<const LinkTable* const> tables);
 
 }  // namespace lumel

@@ -81,7 +81,7 @@ struct LinkTracer::SkyRay {
 struct LinkTracer::RayBatch {
     // Results, in slots of the batch.
     std::vector<std::uint32_t> lumels;
-    std::vector<std::uint32_t> streams;       ///< [lumels] of their random numbers
+    std::vector<LumelSamples> samples;        ///< [lumels] of their rays
     std::vector<std::uint32_t> slots_before;  ///< [lumels + 1]
     std::vector<LinkEnd> ends;                ///< [slots]
     std::vector<std::uint8_t> from;           ///< [slots] cells that the rays leave
@@ -110,7 +110,7 @@ struct LinkTracer::RayBatch {
     void begin()
     {
         lumels.clear();
-        streams.clear();
+        samples.clear();
         slots_before.assign(1, 0);
         ends.clear();
         from.clear();
@@ -169,8 +169,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
     const Lumel& lumel = work_.lumels()[i];
     const auto width = std::uint32_t(work_.scene.lumels.width);
     const std::uint32_t rays = work_.is_buried(i) ? 0u : sending.rays[i];
-    const std::uint32_t own =
-        PathSamples::hash(PathSamples::hash(seed_, sending.stream), lumel_key(lumel, width));
+    const LumelSamples own(lumel, width, PathSamples::hash(seed_, sending.stream), rays);
     std::optional<CosineDraw> shared;
     if (sending.shared)
         shared.emplace(*sending.shared,
@@ -190,7 +189,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
             wave.from.push_back(0);
             continue;
         }
-        const PathSamples samples(own, k);
+        const PathSamples samples = own[k];
         const RayOrigin start = work_.starts.start(i, samples.stratified(kOriginPair));
         std::uint32_t along = 0;
         glm::vec3 direction;
@@ -222,7 +221,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         wave.from.push_back(std::uint8_t(start.cell));
     }
     wave.lumels.push_back(i);
-    wave.streams.push_back(own);
+    wave.samples.push_back(own);
     wave.slots_before.push_back(std::uint32_t(wave.ends.size()));
 }
 
@@ -308,7 +307,7 @@ void LinkTracer::meet_first(RayBatch& wave) const
         }
         const auto path = std::uint32_t(wave.paths.size());
         wave.paths.push_back(
-            {.samples = {wave.streams[n], slot - wave.slots_before[n]},
+            {.samples = wave.samples[n][slot - wave.slots_before[n]],
              .slot = slot,
              .size = size,
              .weight = hit.tint,

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "atlas/cells/cells.h"
+#include "atlas/cells/lumel_samples.h"
 #include "atlas/cells/near_lumels.h"
 #include "links/direct/direct.h"
 #include "links/kept/link_changes.h"

@@ -1,4 +1,4 @@
-#include "links/filter/filter_tile.h"
+#include "links/live/filter_tile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,11 @@
 namespace lumel {
 namespace {
 
-/// Radius in lumels, and standard deviation, of the filter kernels, narrowest first.
-constexpr std::array<int, kBells> kReach = {kNearReach, 5};
-constexpr std::array<float, kBells> kSpread = {1.5f, 3.0f};
+/// Standard deviation of the kernel [lumels].
+constexpr float kSpread = 1.5f;
 /// Radius of the patches that are compared, in lumels.
 constexpr int kPatch = 1;
-static_assert(kReach.back() + kPatch <= kHalo);
+static_assert(kNearReach + kPatch <= kHalo);
 /// Radius over which the variance is averaged, in lumels: weights are nearly independent of the
 /// lumel's own variance.
 constexpr int kNoiseReach = 3;
@@ -23,8 +22,6 @@ constexpr float kMinVariance = 1e-30f;
 const float kCosAlike = std::cos(glm::radians(25.0f));
 /// Maximum distance from the other lumel's plane, in sizes, and maximum ratio of sizes.
 constexpr float kOutOfPlane = 0.5f, kSizes = 2.0f;
-/// Maximum radius of the wide kernel, relative to the distance to the nearest geometry.
-constexpr float kWidth = 1.0f;
 /// Side of the square of texels that a pair of patches covers, in texels.
 constexpr int kPairs = kTile + 2 * kPatch;
 
@@ -41,7 +38,7 @@ struct Way {
     std::size_t from;        ///< index of the previous path
     unsigned step;           ///< index into kSteps
     std::ptrdiff_t step_at;  ///< offset to the lumel that has the last step's bit
-    std::array<float, kBells> bell;
+    float bell;
 };
 
 constexpr int sign(int x)
@@ -62,23 +59,17 @@ Way way_to(Offset to, const std::vector<Way>& nearer)
     const auto step = std::find_if(kSteps.begin(), kSteps.end(), [&](Offset s) {
         return is(s, last.x, last.y) || is(s, -last.x, -last.y);
     });
-    Way way{to,
-            std::size_t(from - nearer.begin()),
-            unsigned(step - kSteps.begin()),
+    Way way{to, std::size_t(from - nearer.begin()), unsigned(step - kSteps.begin()),
             in_tile(is(*step, last.x, last.y) ? before : to),
-            {}};
-    for (std::size_t b = 0; b < kBells; ++b)
-        if (ring <= kReach[b])
-            way.bell[b] =
-                std::exp(-0.5f * float(to.x * to.x + to.y * to.y) / (kSpread[b] * kSpread[b]));
+            std::exp(-0.5f * float(to.x * to.x + to.y * to.y) / (kSpread * kSpread))};
     return way;
 }
 
 /// Paths to all lumels within the radius, nearest first; the first is the lumel itself.
 std::vector<Way> all_ways()
 {
-    std::vector<Way> ways = {{{0, 0}, 0, 0, 0, {}}};
-    for (int ring = 1; ring <= kReach.back(); ++ring)
+    std::vector<Way> ways = {{{0, 0}, 0, 0, 0, 1.0f}};
+    for (int ring = 1; ring <= kNearReach; ++ring)
         for (int y = -ring; y <= ring; ++y)
             for (int x = -ring; x <= ring; ++x)
                 if (std::max(std::abs(x), std::abs(y)) == ring)
@@ -128,10 +119,8 @@ float most(float a, float b)
     return a < b ? b : a;
 }
 
-/// Lumels that mix with those at an offset, and those of them without near geometry: 1 or 0.
-struct Alike {
-    Inner all, widely;
-};
+/// Lumels that mix with those at an offset: 1 or 0.
+using Alike = Inner;
 
 /// Returns false if no lumel mixes.
 bool find_alike(const FilterTile& tile, Offset to, const Reached& reached, Alike& alike)
@@ -148,12 +137,10 @@ bool find_alike(const FilterTile& tile, Offset to, const Reached& reached, Alike
             const float own = tile.size[a + x], theirs = tile.size[b + x];
             const bool is = (cosine >= kCosAlike) & (std::abs(off) <= kOutOfPlane * own) &
                             (own <= kSizes * theirs) & (theirs <= kSizes * own);
-            const float width = kWidth * least(tile.nearest[a + x], tile.nearest[b + x]);
-            alike.all[row + x] = (is ? 1.0f : 0.0f) * float(reached[row + x] & 1);
-            alike.widely[row + x] = glm::dot(apart, apart) <= width * width ? 1.0f : 0.0f;
+            alike[row + x] = (is ? 1.0f : 0.0f) * float(reached[row + x] & 1);
         }
         for (std::size_t x = 0; x < kTile; ++x)
-            any += alike.all[row + x];
+            any += alike[row + x];
     }
     return any > 0.0f;
 }
@@ -215,73 +202,6 @@ void find_weights(const FilterTile& tile, std::uint32_t k, Offset to, const Diff
         weight[x] = falling(beyond[x]);
 }
 
-/// Adds a row of the cross-filtered solutions of solution k at offset `there`.
-void add_row(const FilterTile& tile, std::uint32_t k, std::size_t there, const Row& weight,
-             std::size_t row, FilteredTile& filtered)
-{
-    const FilterTile::Light &one = tile.light[(k + 1) % kSolutions],
-                            &other = tile.light[(k + 2) % kSolutions];
-    for (std::size_t x = 0; x < kTile; ++x)
-        filtered.weight[row + x] += weight[x];
-    for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t x = 0; x < kTile; ++x) {
-            filtered.one[c][row + x] += weight[x] * one[c][there + x];
-            filtered.other[c][row + x] += weight[x] * other[c][there + x];
-        }
-}
-
-/// Adds the cross-filtered solutions of solution k at an offset to those of the tile's lumels.
-void add(const FilterTile& tile, std::uint32_t k, const Way& way, const Alike& alike,
-         FilteredTiles& filtered)
-{
-    Differences found;
-    find_differences(tile, k, way.to, found);
-    for (int y = 0; y < kTile; ++y) {
-        Row look_alike, weight;
-        find_weights(tile, k, way.to, found, y, look_alike);
-        const std::size_t row = std::size_t(y) * kTile,
-                          there = wide_at(0, y) + std::size_t(in_tile(way.to));
-        for (std::size_t b = 0; b < kBells; ++b) {
-            const float narrow = way.bell[0], wider = way.bell[b] - narrow;
-            if (way.bell[b] == 0.0f)
-                continue;
-            for (std::size_t x = 0; x < kTile; ++x)
-                weight[x] =
-                    (narrow + wider * alike.widely[row + x]) * alike.all[row + x] * look_alike[x];
-            add_row(tile, k, there, weight, row, filtered[b][k]);
-        }
-    }
-}
-
-void begin(const FilterTile& tile, std::uint32_t k, FilteredTile& filtered)
-{
-    filtered.weight.fill(1.0f);
-    for (std::size_t c = 0; c < 3; ++c)
-        for (int y = 0; y < kTile; ++y) {
-            const std::size_t row = std::size_t(y) * kTile;
-            std::copy_n(&tile.light[(k + 1) % kSolutions][c][wide_at(0, y)], kTile,
-                        &filtered.one[c][row]);
-            std::copy_n(&tile.light[(k + 2) % kSolutions][c][wide_at(0, y)], kTile,
-                        &filtered.other[c][row]);
-        }
-}
-
-/// Calls visit(path, mixing lumels) for the first `count` paths that reach any lumel.
-template <class Visit>
-void for_each_way(const FilterTile& tile, std::size_t count, const Visit& visit)
-{
-    std::vector<Reached> reached(count);
-    std::vector<char> any(count, 1);
-    reached[0].fill(1);
-    Alike alike;
-    for (std::size_t w = 1; w < count; ++w) {
-        const Way& way = ways()[w];
-        any[w] = any[way.from] && take_step(tile, way, reached[way.from], reached[w]);
-        if (any[w] && find_alike(tile, way.to, reached[w], alike))
-            visit(w, alike);
-    }
-}
-
 }  // namespace
 
 void find_variance(const FilterTile& tile, std::uint32_t k, Inner& variance)
@@ -311,35 +231,31 @@ void find_variance(const FilterTile& tile, std::uint32_t k, Inner& variance)
     }
 }
 
-void filter_tile(const FilterTile& tile, FilteredTiles& filtered)
-{
-    for (std::array<FilteredTile, kSolutions>& bell : filtered)
-        for (std::uint32_t k = 0; k < kSolutions; ++k)
-            begin(tile, k, bell[k]);
-    for_each_way(tile, ways().size(), [&](std::size_t w, const Alike& alike) {
-        for (std::uint32_t k = 0; k < kSolutions; ++k)
-            add(tile, k, ways()[w], alike, filtered);
-    });
-}
-
 void weigh_tile(const FilterTile& tile, std::uint32_t k, NearWeights& weights)
 {
     for (std::size_t n = 0; n < kNearWays; ++n) {
         weights.to[n] = ways()[n + 1].to;
         weights.weight[n].fill(0.0f);
     }
+    std::vector<Reached> reached(ways().size());
+    std::vector<char> any(ways().size(), 1);
+    reached[0].fill(1);
     Differences found;
-    for_each_way(tile, kNearWays + 1, [&](std::size_t w, const Alike& alike) {
+    Alike alike;
+    for (std::size_t w = 1; w < ways().size(); ++w) {
         const Way& way = ways()[w];
+        any[w] = any[way.from] && take_step(tile, way, reached[way.from], reached[w]);
+        if (!any[w] || !find_alike(tile, way.to, reached[w], alike))
+            continue;
         find_differences(tile, k, way.to, found);
         for (int y = 0; y < kTile; ++y) {
             Row look_alike;
             find_weights(tile, k, way.to, found, y, look_alike);
             const std::size_t row = std::size_t(y) * kTile;
             for (std::size_t x = 0; x < kTile; ++x)
-                weights.weight[w - 1][row + x] = way.bell[0] * alike.all[row + x] * look_alike[x];
+                weights.weight[w - 1][row + x] = way.bell * alike[row + x] * look_alike[x];
         }
-    });
+    }
 }
 
 }  // namespace lumel

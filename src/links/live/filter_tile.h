@@ -1,8 +1,10 @@
 #pragma once
-// The chart filter within a tile of the atlas. See filter.h.
+// Weights that mix lumels similar in a guide, within a tile of the atlas: the filter of live
+// scenes, whose weights are kept while light changes.
 //
-// [WRC88] G. J. Ward, F. M. Rubinstein, R. D. Clear. A Ray Tracing Solution for Diffuse
-//         Interreflection. SIGGRAPH 1988.
+// [BCM05] A. Buades, B. Coll, J.-M. Morel. A Non-Local Algorithm for Image Denoising. CVPR 2005.
+// [RKZ12] F. Rousselle, C. Knaus, M. Zwicker. Adaptive Rendering with Non-Local Means Filtering.
+//         SIGGRAPH Asia 2012.
 
 #include <array>
 #include <cstddef>
@@ -11,17 +13,12 @@
 
 #include "atlas/packing/lumel.shared.h"
 #include "links/direct/solutions.h"
+#include "links/filter/filter_chart.h"
 
 namespace lumel {
 
-/// Steps from a lumel to four of its eight neighbours; the other four are reversed.
-struct Offset {
-    int x, y;
-};
-inline constexpr std::array<Offset, 4> kSteps = {{{1, 0}, {0, 1}, {1, 1}, {-1, 1}}};
-
 /// Side of a tile and width of the border around it that is read [texels].
-inline constexpr int kTile = 32, kHalo = 6, kWide = kTile + 2 * kHalo;
+inline constexpr int kTile = 32, kHalo = 3, kWide = kTile + 2 * kHalo;
 
 /// Array index of a texel of a tile, -kHalo ≤ x, y < kTile + kHalo.
 constexpr std::size_t wide_at(int x, int y)
@@ -38,16 +35,11 @@ struct FilterTile {
     Wide<std::int32_t> chart;   ///< -1 if none
     Wide<std::uint8_t> steps;   ///< bit s: the filter may step over kSteps[s]
     Wide<float> size;           ///< [m]
-    Wide<float> nearest;        ///< distance to the nearest ray hit [m]
     std::array<Wide<float>, 3> centre, normal;
     std::array<Light, kSolutions> light;  ///< 0 without a lumel
     std::array<Wide<float>, kSolutions>
         variance;  ///< per cross-filtered solution, summed over channels
 };
-
-/// Two neighbours can be separated by geometry that is closer than this multiple of their distance;
-/// a ray between them, kLift sides of a lumel above them, decides.
-inline constexpr float kMayStandBetween = 1.5f, kLift = 0.05f;
 
 /// Calls visit(lumel, index of an Inner, index of a Wide) for each lumel within the tile, row by
 /// row.
@@ -66,20 +58,7 @@ using Inner = std::array<float, std::size_t(kTile) * kTile>;
 /// Variance of the cross-filtered solutions of solution k, from neighbours.
 void find_variance(const FilterTile& tile, std::uint32_t k, Inner& variance);
 
-/// Kernels of different width: the narrow one suits light that varies. The wide one is limited by
-/// the nearest geometry, since indirect light varies over distances like those to its sources
-/// [WRC88].
-inline constexpr std::size_t kBells = 2;
-
-/// Weighted sums of the cross-filtered solutions, and sums of weights, per kernel.
-struct FilteredTile {
-    Inner weight;
-    std::array<Inner, 3> one, other;
-};
-using FilteredTiles = std::array<std::array<FilteredTile, kSolutions>, kBells>;
-void filter_tile(const FilterTile& tile, FilteredTiles& filtered);
-
-/// Radius of the narrow kernel, and number of lumels in it except the central one.
+/// Radius of the kernel, and number of lumels in it except the central one.
 inline constexpr int kNearReach = 2;
 inline constexpr std::size_t kNearWays = (2 * kNearReach + 1) * (2 * kNearReach + 1) - 1;
 
@@ -89,7 +68,7 @@ struct NearWeights {
     std::array<Inner, kNearWays> weight;
 };
 
-/// Weights of the narrow kernel, with which filter_tile() filters by solution k.
+/// Weights by solution k.
 void weigh_tile(const FilterTile& tile, std::uint32_t k, NearWeights& weights);
 
 }  // namespace lumel

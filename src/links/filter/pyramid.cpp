@@ -1,0 +1,192 @@
+#include "links/filter/pyramid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lumel {
+namespace {
+
+constexpr std::array<float, 4> kCautionIndirect = {0.5f, 0.5f, 0.5f, 0.5f};
+constexpr std::array<float, 2> kCautionDirect = {1.0f, 0.5f};
+/// Bounds on the amplitude of details, relative to (deviation of the fit / R)² × the light: second
+/// order in the distance R of what sends it [WH92].
+constexpr float kLeastDetail = 0.05f, kMostDetail = 4.0f;
+/// Deviation of the window over which gains are averaged [cells]; of the finest level.
+constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
+/// Radius of the window in deviations.
+constexpr float kGainRadius = 2.5f;
+
+/// Averages of a level over cells nearby.
+struct Moments {
+    float signal = 0.0f, mean = 0.0f, bound = 0.0f, count = 0.0f;
+
+    Moments& operator+=(const Moments& other)
+    {
+        signal += other.signal;
+        mean += other.mean;
+        bound += other.bound;
+        count += other.count;
+        return *this;
+    }
+    Moments operator*(float factor) const
+    {
+        return {factor * signal, factor * mean, factor * bound, factor * count};
+    }
+};
+
+/// Sums the moments of a lumel's details.
+template <std::size_t Count>
+Moments moments_of(const FitLight<Count>& detail, const FitLight<Count>& fitted, float bound)
+{
+    constexpr float kOfPairs = float(Count * (Count - 1) / 2);
+    Moments moments{.count = 1.0f};
+    float light = 0.0f;
+    for (std::size_t c = 0; c < 3; ++c) {
+        float sum = 0.0f, squares = 0.0f, all = 0.0f;
+        for (std::size_t k = 0; k < Count; ++k) {
+            const float d = detail[3 * k + c];
+            sum += d;
+            squares += d * d;
+            all += fitted[3 * k + c];
+        }
+        moments.signal += 0.5f * (sum * sum - squares) / kOfPairs;
+        moments.mean += sum * sum / float(Count * Count);
+        light += all * all / float(Count * Count);
+    }
+    moments.bound = bound * bound * light;
+    return moments;
+}
+
+/// Gaussian blur of rows or columns, in place.
+void blur(std::vector<Moments>& cells, std::size_t lines, std::size_t length, std::size_t from_line,
+          std::size_t from_cell, const std::vector<float>& bell)
+{
+    std::vector<Moments> line(length);
+    for (std::size_t n = 0; n < lines; ++n) {
+        Moments* first = &cells[n * from_line];
+        for (std::size_t i = 0; i < length; ++i)
+            line[i] = first[i * from_cell];
+        for (std::size_t i = 0; i < length; ++i) {
+            Moments sum = line[i] * bell[0];
+            for (std::size_t r = 1; r < bell.size(); ++r) {
+                if (i >= r)
+                    sum += line[i - r] * bell[r];
+                if (i + r < length)
+                    sum += line[i + r] * bell[r];
+            }
+            first[i * from_cell] = sum;
+        }
+    }
+}
+
+void blur(std::vector<Moments>& cells, int width, int height, float spread)
+{
+    std::vector<float> bell;
+    for (int r = 0; float(r) <= kGainRadius * spread; ++r)
+        bell.push_back(std::exp(-0.5f * float(r * r) / (spread * spread)));
+    const auto across = std::size_t(width), down = std::size_t(height);
+    blur(cells, down, across, across, 1, bell);
+    blur(cells, across, down, 1, across, bell);
+}
+
+float gain_of(const Moments& sums, const PyramidRule& rule, float caution)
+{
+    const float noise = std::max(sums.mean - sums.signal, 0.0f);
+    float signal = std::max(sums.signal - caution * noise, 0.0f);
+    if (rule.is_bounded)
+        signal = std::clamp(signal, kLeastDetail * kLeastDetail * sums.bound,
+                            kMostDetail * kMostDetail * sums.bound);
+    return signal + noise > 0.0f ? signal / (signal + noise) : 1.0f;
+}
+
+/// Gains of a level's cells.
+template <std::size_t Count>
+std::vector<float> gains_of(const FilterChart& chart, const FitLevel<Count>& level,
+                            const std::vector<FitLight<Count>>& fitted,
+                            const std::vector<FitLight<Count>>& detail, const PyramidRule& rule,
+                            float caution)
+{
+    std::vector<Moments> cells(level.count.size());
+    const float spread = kFitSpread * float(level.side);
+    for (int y = 0; y < chart.height; ++y)
+        for (int x = 0; x < chart.width; ++x) {
+            const std::size_t t = chart.at(x, y), cell = level.at(x / level.side, y / level.side);
+            if (chart.lumel[t] == kNoLumel || !level.counts(cell))
+                continue;
+            const float reach = std::min(spread * chart.nearness[t], 1.0f);
+            cells[cell] += moments_of<Count>(detail[t], fitted[t], reach * reach);
+        }
+    blur(cells, level.width, level.height, level.side == 1 ? kFinestGainSpread : kGainSpread);
+    std::vector<float> gains(cells.size());
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+        gains[cell] = gain_of(cells[cell], rule, caution);
+    return gains;
+}
+
+/// Bilinear between the centres of cells.
+template <std::size_t Count>
+float gain_at(const FitLevel<Count>& level, const std::vector<float>& gains, int x, int y)
+{
+    if (level.side == 1)
+        return gains[level.at(x, y)];
+    const glm::vec2 at = glm::clamp((glm::vec2(x, y) + 0.5f) / float(level.side) - 0.5f,
+                                    glm::vec2(0.0f), glm::vec2(level.width - 1, level.height - 1));
+    const int left = int(at.x), top = int(at.y), right = std::min(left + 1, level.width - 1),
+              bottom = std::min(top + 1, level.height - 1);
+    const glm::vec2 across = at - glm::vec2(left, top);
+    return glm::mix(
+        glm::mix(gains[level.at(left, top)], gains[level.at(right, top)], across.x),
+        glm::mix(gains[level.at(left, bottom)], gains[level.at(right, bottom)], across.x),
+        across.y);
+}
+
+}  // namespace
+
+PyramidRule rule_of_indirect()
+{
+    return {.caution = kCautionIndirect, .is_bounded = true};
+}
+
+PyramidRule rule_of_direct()
+{
+    return {.caution = kCautionDirect, .is_bounded = false};
+}
+
+template <std::size_t Count>
+std::vector<FitLight<Count>> filter_chart(const FilterChart& chart,
+                                          const std::array<const Estimates*, Count>& found,
+                                          const PyramidRule& rule)
+{
+    FitLevel<Count> level = finest_level<Count>(chart, found);
+    std::vector<FitLight<Count>> finer = level.light, result(finer.size(), FitLight<Count>{});
+    for (std::size_t l = 0; l < rule.caution.size(); ++l) {
+        if (l > 0)
+            level = coarser_level(level);
+        std::vector<FitLight<Count>> fitted = fitted_light(chart, level, finer);
+        for (std::size_t t = 0; t < finer.size(); ++t)
+            for (std::size_t c = 0; c < finer[t].size(); ++c)
+                finer[t][c] -= fitted[t][c];
+        const std::vector<FitLight<Count>>& detail = finer;
+        const std::vector<float> gains =
+            gains_of(chart, level, fitted, detail, rule, rule.caution[l]);
+        for (int y = 0; y < chart.height; ++y)
+            for (int x = 0; x < chart.width; ++x) {
+                const std::size_t t = chart.at(x, y);
+                const float gain = gain_at(level, gains, x, y);
+                for (std::size_t c = 0; c < result[t].size(); ++c)
+                    result[t][c] += gain * detail[t][c];
+            }
+        finer = std::move(fitted);
+    }
+    for (std::size_t t = 0; t < finer.size(); ++t)
+        for (std::size_t c = 0; c < result[t].size(); ++c)
+            result[t][c] += finer[t][c];
+    return result;
+}
+
+template std::vector<FitLight<2>>
+filter_chart<2>(const FilterChart&, const std::array<const Estimates*, 2>&, const PyramidRule&);
+template std::vector<FitLight<3>>
+filter_chart<3>(const FilterChart&, const std::array<const Estimates*, 3>&, const PyramidRule&);
+
+}  // namespace lumel

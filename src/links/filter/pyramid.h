@@ -1,0 +1,44 @@
+#pragma once
+// Filters a chart by a pyramid of local fits, joined by gains that independent estimates tell.
+//
+// [RKZ11] F. Rousselle, C. Knaus, M. Zwicker. Adaptive Sampling and Reconstruction using Greedy
+//         Error Minimization. SIGGRAPH Asia 2011.
+// [WH92] G. Ward, P. Heckbert. Irradiance Gradients. Eurographics Workshop on Rendering 1992.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "links/filter/fit_level.h"
+
+namespace lumel {
+
+/// How the pyramid joins its levels.
+struct PyramidRule {
+    /// [levels] From the finest on: the noise of an estimate of the signal that is not taken for
+    /// signal, in deviations² of the noise.
+    std::span<const float> caution;
+    /// Details finer than the distances that rays go allow are taken for noise [WH92].
+    bool is_bounded;
+};
+
+/// Indirect light, which varies over distances like those to its senders; and direct light, whose
+/// shadows can be sharp anywhere.
+PyramidRule rule_of_indirect();
+PyramidRule rule_of_direct();
+
+/// Filtered estimates at each texel of the chart. With E_0 the light of lumels and E_l the fits of
+/// level l, and details d_l = E_{l-1} - E_l: E_n + Σ β_l d_l, with gains
+///
+///     β = S / (S + ν),    T = mean over pairs d_a · d_b,    ν = |mean d|² - T,    S = T - caution
+///     ν
+///
+/// T is signal, as noise of different estimates is independent, and ν the noise of their mean, both
+/// averaged over cells nearby: an empirical Wiener filter. All estimates have the same gains.
+template <std::size_t Count>
+std::vector<FitLight<Count>> filter_chart(const FilterChart& chart,
+                                          const std::array<const Estimates*, Count>& found,
+                                          const PyramidRule& rule);
+
+}  // namespace lumel

@@ -1,0 +1,163 @@
+#include "links/filter/pyramid.h"
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace lumel {
+namespace {
+
+constexpr int kSide = 96;
+constexpr float kNoise = 0.2f;
+/// Distance that rays go, in lumels: lights the middle of a large room.
+constexpr float kFarAway = 100.0f;
+
+using LightAt = std::function<float(int x, int y)>;
+
+/// A flat square chart without obstacles.
+FilterChart flat_chart()
+{
+    FilterChart chart{.width = kSide, .height = kSide};
+    for (std::uint32_t t = 0; t < kSide * kSide; ++t)
+        chart.lumel.push_back(t);
+    chart.steps.assign(chart.lumel.size(), 0xF);
+    chart.normal.assign(chart.lumel.size(), {0.0f, 0.0f, 1.0f});
+    chart.nearness.assign(chart.lumel.size(), 1.0f / kFarAway);
+    return chart;
+}
+
+/// Three solutions of that light, each with noise of its own.
+Solutions solutions_of(const LightAt& light, float noise = kNoise)
+{
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal;
+    Solutions found;
+    for (Estimates& of : found)
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x)
+                of.emplace_back(light(x, y) + noise * normal(random));
+    return found;
+}
+
+std::vector<float> filtered(const FilterChart& chart, const Solutions& found,
+                            const PyramidRule& rule = rule_of_indirect())
+{
+    std::vector<float> mean;
+    for (const FitLight<3>& light : filter_chart<3>(chart, {&found[0], &found[1], &found[2]}, rule))
+        mean.push_back((light[0] + light[3] + light[6]) / 3.0f);
+    return mean;
+}
+
+/// Root mean square error.
+double error_of(const FilterChart& chart, const std::vector<float>& mean, const LightAt& light)
+{
+    double squares = 0.0;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+            squares += std::pow(double(mean[chart.at(x, y)] - light(x, y)), 2.0);
+    return std::sqrt(squares / double(mean.size()));
+}
+
+float even(int, int)
+{
+    return 1.0f;
+}
+
+float bowl(int x, int y)
+{
+    const float u = float(x) / kSide - 0.3f, v = float(y) / kSide - 0.6f;
+    return 1.0f + u * u + 0.5f * u * v - 2.0f * v * v;
+}
+
+/// Left of x = 48 it is day.
+float edge(int x, int)
+{
+    return x < 48 ? 4.0f : 1.0f;
+}
+
+TEST(Pyramid, NoiseOfEvenLightFallsToATenth)
+{
+    const FilterChart chart = flat_chart();
+    EXPECT_LT(error_of(chart, filtered(chart, solutions_of(even)), even),
+              0.1 * double(kNoise) / std::sqrt(3.0));
+}
+
+TEST(Pyramid, LightWithoutNoiseIsLeftAsItIs)
+{
+    const auto wave = [](int x, int y) { return 2.0f + std::sin(0.7f * float(x) + float(y)); };
+    const FilterChart chart = flat_chart();
+    EXPECT_LT(error_of(chart, filtered(chart, solutions_of(bowl, 0.0f)), bowl), 1e-4);
+    EXPECT_LT(error_of(chart, filtered(chart, solutions_of(wave, 0.0f), rule_of_direct()), wave),
+              1e-4);
+}
+
+TEST(Pyramid, SlowChangesOfLightStay)
+{
+    const FilterChart chart = flat_chart();
+    EXPECT_LT(error_of(chart, filtered(chart, solutions_of(bowl)), bowl),
+              0.12 * double(kNoise) / std::sqrt(3.0));
+}
+
+TEST(Pyramid, EdgesOfDirectLightStay)
+{
+    const FilterChart chart = flat_chart();
+    const std::vector<float> mean = filtered(chart, solutions_of(edge, 0.1f), rule_of_direct());
+    for (int y = 0; y < kSide; ++y)
+        for (const int x : {47, 48})
+            EXPECT_NEAR(mean[chart.at(x, y)], edge(x, y), 0.3f);
+}
+
+TEST(Pyramid, NothingPassesAWall)
+{
+    // Noise so strong that the gains cannot tell the sides apart; the same on both.
+    Solutions found = solutions_of(even, 10.0f);
+    FilterChart chart = flat_chart();
+    const std::vector<float> before = filtered(chart, found);
+    for (int y = 0; y < kSide; ++y) {
+        chart.steps[chart.at(47, y)] &= std::uint8_t(~0b0101u);
+        chart.steps[chart.at(48, y)] &= std::uint8_t(~0b1000u);
+    }
+    const std::vector<float> walled = filtered(chart, found);
+    for (Estimates& of : found)
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < 48; ++x)
+                of[chart.at(x, y)] += 1000.0f;
+    const std::vector<float> lit = filtered(chart, found);
+    double passed = 0.0, changed = 0.0;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 48; x < kSide; ++x) {
+            passed = std::max(passed, double(std::abs(lit[chart.at(x, y)])));
+            changed += double(std::abs(before[chart.at(x, y)] - walled[chart.at(x, y)]));
+        }
+    EXPECT_LT(passed, 60.0);  // by noise alone, and not by 1000
+    EXPECT_GT(changed, 0.0);
+}
+
+TEST(Pyramid, FacesThatTurnAwayDoNotMix)
+{
+    FilterChart chart = flat_chart();
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 48; x < kSide; ++x)
+            chart.normal[chart.at(x, y)] = {0.6f, 0.0f, 0.8f};
+    const std::vector<float> mean = filtered(chart, solutions_of(edge, 0.0f));
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+            EXPECT_NEAR(mean[chart.at(x, y)], edge(x, y), 1e-3f);
+}
+
+TEST(Pyramid, ALumelAloneKeepsItsLight)
+{
+    FilterChart chart = flat_chart();
+    for (std::size_t t = 0; t < chart.lumel.size(); ++t)
+        if (t != chart.at(20, 30))
+            chart.lumel[t] = kNoLumel;
+    const Solutions found = solutions_of(even);
+    const std::size_t t = chart.at(20, 30);
+    EXPECT_NEAR(filtered(chart, found)[t], (found[0][t].x + found[1][t].x + found[2][t].x) / 3.0f,
+                1e-5f);
+}
+
+}  // namespace
+}  // namespace lumel
