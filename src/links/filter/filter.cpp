@@ -15,6 +15,10 @@ constexpr int kUncertainReach = 2;
 /// Radius of the square over which nearness is averaged [lumels].
 constexpr int kNearnessReach = 2;
 
+/// Radius of the square of lumels that mean_nearby() compares, and maximum ratio of their nearness.
+constexpr int kNearbyReach = 2;
+constexpr float kLikeNearness = 1.5f;
+
 /// Mean over the square around each lumel of the chart.
 std::vector<float> smoothed(const FilterChart& chart, const std::vector<float>& value, int reach)
 {
@@ -182,6 +186,34 @@ Mean ChartFilter::indirect(const Solutions& found) const
             }
         });
     return mean;
+}
+
+std::vector<double> ChartFilter::mean_nearby(const std::vector<double>& value) const
+{
+    const Lumels& lumels = work_.scene.lumels;
+    std::vector<double> result(value.size());
+    const auto mean_at = [&](std::size_t i) {
+        const Lumel& own = lumels.lumels[i];
+        const int x = int(own.texel) % lumels.width, y = int(own.texel) / lumels.width;
+        double sum = 0.0, count = 0.0;
+        for (int dy = -kNearbyReach; dy <= kNearbyReach; ++dy)
+            for (int dx = -kNearbyReach; dx <= kNearbyReach; ++dx) {
+                const std::uint32_t j =
+                    lit_lumel_at(lumels, by_side_, x + dx, y + dy, is_back(own) ? 1 : 0);
+                if (j == kNoLumel || j == i || lumels.lumels[j].chart != own.chart ||
+                    nearness_[j] > kLikeNearness * nearness_[i] ||
+                    nearness_[i] > kLikeNearness * nearness_[j])
+                    continue;
+                sum += value[j];
+                count += 1.0;
+            }
+        return count > 0.0 ? sum / count : value[i];
+    };
+    parallel_for(value.size(), kLumelsPerTask, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            result[i] = mean_at(i);
+    });
+    return result;
 }
 
 Mean ChartFilter::direct(const Estimates& one, const Estimates& other) const

@@ -31,6 +31,9 @@ public:
 
     /// Filtered mean of the solutions.
     Mean indirect(const Solutions& found) const;
+    /// [N] Mean of a value over other lumels nearby on the same side of the chart whose rays go as
+    /// far; of a lumel alone, its own.
+    std::vector<double> mean_nearby(const std::vector<double>& value) const;
     /// Filtered mean of two halves of direct light. Lumels far from any whose halves differ keep
     /// their light: it is exact.
     Mean direct(const Estimates& one, const Estimates& other) const;

@@ -11,11 +11,6 @@ double spread(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
     return double(glm::dot(ab, ab) + glm::dot(bc, bc) + glm::dot(ca, ca));
 }
 
-double SquaredError::sum() const
-{
-    return noise_ + std::max(wrong_, 0.0) + std::sqrt(squares_);
-}
-
 Mean plain_mean(const Solutions& found)
 {
     static_assert(kSolutions == 3);

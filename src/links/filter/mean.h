@@ -1,6 +1,7 @@
 #pragma once
 // Mean of several estimates, and its error.
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -17,26 +18,19 @@ struct Mean {
 /// Sum of squared differences between the three, over channels.
 double spread(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-/// Sum of squared errors over some lumels.
+/// Sum of squared errors over some lumels. Estimates of the squared bias are signed; their sum is
+/// not negative.
 class SquaredError {
 public:
     void add(const Mean& mean, std::size_t lumel)
     {
-        add(double(mean.noise[lumel]), double(mean.wrong[lumel]));
+        noise_ += double(mean.noise[lumel]);
+        wrong_ += double(mean.wrong[lumel]);
     }
-    /// Adds a lumel's values as in Mean.
-    void add(double noise, double wrong)
-    {
-        noise_ += noise;
-        wrong_ += wrong;
-        squares_ += wrong * wrong;
-    }
-    /// Clamps the squared filter bias at 0 and adds its standard error, so that choosing the better
-    /// filter stays conservative.
-    double sum() const;
+    double sum() const { return noise_ + std::max(wrong_, 0.0); }
 
 private:
-    double noise_ = 0.0, wrong_ = 0.0, squares_ = 0.0;
+    double noise_ = 0.0, wrong_ = 0.0;
 };
 
 /// Of independent solutions, and of two independent halves.

@@ -31,9 +31,12 @@ namespace lumel {
 namespace {
 
 /// Rays per lumel in each solution of the first round; powers of two stratify best.
-constexpr std::uint32_t kFirstRays = 8;
-/// Minimum and maximum rays of a later round, relative to the rays so far.
-constexpr double kMinAdded = 0.4, kMaxAdded = 3.0;
+constexpr std::uint32_t kFirstRays = 4;
+/// Minimum and maximum rays of a later round, relative to the rays so far; minimum of the second.
+constexpr double kMinAdded = 0.4, kMaxAdded = 3.0, kMinSecond = 0.75;
+/// The first round, whose rays are uniform, is the last only below this fraction of the target: it
+/// leaves lumels in contact with other geometry noisy, which the filter cannot mend.
+constexpr double kEndsAtOnce = 0.5;
 /// Rays allocated by deviation reduce the variance like 1 / kAdaptiveGain as many uniform ones.
 constexpr double kAdaptiveGain = 0.6;
 constexpr std::uint32_t kMaxLinks = 4096;
@@ -45,7 +48,9 @@ constexpr double kLinkBytes = sizeof(LinkEnd), kRowBytes = sizeof(std::uint16_t)
 /// Fraction of lumels with direct light per cell: maximum seen.
 constexpr double kVarying = 0.1;
 /// Fraction of rays allocated uniformly.
-constexpr double kEvenShare = 0.25;
+constexpr double kEvenShare = 0.1;
+/// Bisection steps for the rays that all lumels add.
+constexpr int kFillSteps = 24;
 /// Blocks of links per step, at the first round's number of rays.
 constexpr std::size_t kBlocksPerStep = 128;
 /// Blocks per step when rasterising, whose cost hardly grows with them: a million rays (200 MB).
@@ -213,6 +218,8 @@ void LinkRadiosity::read_state(StateReader& reader)
     state(reader);
     state_.full = false;
     check_sizes();
+    if (stage_ == Stage::direct && !mean_.light.empty())
+        make_filter();
 }
 
 /// Throws if the state that was read is of other lumels or sub-lumels.
@@ -340,8 +347,8 @@ double LinkRadiosity::more_rays() const
             const double left = square - std::min(one.now.direct, kMaxShare * square);
             ratio = std::max(ratio, one.now.rays / left);
         }
-        more = std::clamp(kAdaptiveGain * so_far * (ratio - 1.0), kMinAdded * so_far,
-                          kMaxAdded * so_far);
+        more = std::clamp(kAdaptiveGain * so_far * (ratio - 1.0),
+                          (round_ == 1 ? kMinSecond : kMinAdded) * so_far, kMaxAdded * so_far);
     }
     return std::min(more, double(kMaxLinks));
 }
@@ -373,31 +380,48 @@ std::vector<double> LinkRadiosity::weights() const
     return weight;
 }
 
-/// Allocates rays. The sum of variances is minimal if rays are proportional to deviations. Some
-/// rays are uniform, since lumels whose rays have not found a light yet seem noiseless.
+/// Allocates rays. The sum of variances is minimal if all rays of a lumel are proportional to the
+/// deviation that one ray leaves after the filter; lumels are filled up to that. Some rays are
+/// uniform, since lumels whose rays have not found a light yet seem noiseless.
 void LinkRadiosity::share_out_rays()
 {
     rays_.assign(work_.order.size(), std::uint16_t(std::lround(mean_rays_)));
     if (state_.shots == 0)
         return;
     const std::vector<double> weight = weights();
-    std::vector<double> square(work_.order.size());
-    for (std::size_t i = 0; i < square.size(); ++i)
-        square[i] = weight[i] * spread(indirect(i, 0), indirect(i, 1), indirect(i, 2));
-    const std::vector<double> deviation = deviation_nearby(square, work_.order, 0.0);
-    double mean = 0.0, lit = 0.0;
-    for (std::size_t i = 0; i < deviation.size(); ++i)
-        if (!work_.is_buried(i)) {
-            mean += deviation[i];
-            lit += 1.0;
-        }
-    mean /= std::max(lit, 1.0);
-    if (!(mean > 0.0))
-        return;
-    for (std::size_t i = 0; i < deviation.size(); ++i) {
-        const double share = kEvenShare + (1.0 - kEvenShare) * deviation[i] / mean;
-        rays_[i] = std::uint16_t(std::clamp(std::lround(mean_rays_ * share), 0l, long(kMaxLinks)));
+    std::vector<double> sent(work_.order.size(), 0.0), square(work_.order.size());
+    for (std::size_t i = 0; i < square.size(); ++i) {
+        for (const SourceTerm& source : sources_)
+            for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
+                sent[i] += double(source.rays[p]) / double(kSolutions);
+        square[i] = weight[i] * double(mean_.noise[i]) * sent[i];
     }
+    std::vector<double> deviation = filter_ ? filter_->mean_nearby(square) : square;
+    for (double& one : deviation)
+        one = std::sqrt(one);
+    const double wanted = (1.0 - kEvenShare) * mean_rays_ * double(rays_.size());
+    const auto added = [&](std::size_t i, double scale) {
+        return work_.is_buried(i) ? 0.0 : std::max(scale * deviation[i] - sent[i], 0.0);
+    };
+    const auto all_added = [&](double scale) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < deviation.size(); ++i)
+            sum += added(i, scale);
+        return sum;
+    };
+    const double widest = *std::max_element(deviation.begin(), deviation.end());
+    if (!(widest > 0.0))
+        return;
+    double low = 0.0, high = 1.0 / widest;
+    while (all_added(high) < wanted)
+        high *= 2.0;
+    for (int step = 0; step < kFillSteps; ++step) {
+        const double middle = 0.5 * (low + high);
+        (all_added(middle) < wanted ? low : high) = middle;
+    }
+    for (std::size_t i = 0; i < deviation.size(); ++i)
+        rays_[i] = std::uint16_t(
+            std::clamp(std::lround(kEvenShare * mean_rays_ + added(i, high)), 0l, long(kMaxLinks)));
 }
 
 /// Solves for all bounces over the links of each solution.
@@ -469,9 +493,13 @@ std::vector<LinkRadiosity::Wanted> LinkRadiosity::wanted() const
 void LinkRadiosity::go_on()
 {
     const std::vector<Wanted> all = wanted();
-    const bool reached = std::all_of(all.begin(), all.end(), [](const Wanted& one) {
-        return one.now.rays + one.now.direct <= one.error * one.error;
-    });
+    const auto reached_times = [&](double part) {
+        return std::all_of(all.begin(), all.end(), [&](const Wanted& one) {
+            return one.now.rays + one.now.direct <= part * part * one.error * one.error;
+        });
+    };
+    state_.rough = round_ == 1 && then_ == Then::add && !reached_times(kEndsAtOnce);
+    const bool reached = reached_times(1.0) && !state_.rough;
     const bool is_even = options_.even_rays > 0;
     if ((reached && !all.empty()) || is_even) {
         state_.ended = is_even;
@@ -547,6 +575,15 @@ glm::vec3 LinkRadiosity::indirect(std::size_t i, std::size_t k) const
     return rays > 0 ? sum / float(rays) : glm::vec3(0.0f);
 }
 
+void LinkRadiosity::make_filter()
+{
+    filter_.reset();
+    if (options_.filter)
+        filter_.emplace(work_, *parts_,
+                        find_distances(work_, *parts_, *numbers_,
+                                       std::array{&*links_[0], &*links_[1], &*links_[2]}));
+}
+
 /// Averages the solutions.
 void LinkRadiosity::combine()
 {
@@ -556,11 +593,7 @@ void LinkRadiosity::combine()
         for (std::size_t i = 0; i < found[k].size(); ++i)
             found[k][i] = brought(i, k);
     }
-    filter_.reset();
-    if (options_.filter)
-        filter_.emplace(work_, *parts_,
-                        find_distances(work_, *parts_, *numbers_,
-                                       std::array{&*links_[0], &*links_[1], &*links_[2]}));
+    make_filter();
     mean_ = filter_ ? filter_->indirect(found) : plain_mean(found);
 }
 

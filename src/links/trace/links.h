@@ -120,6 +120,7 @@ private:
     glm::vec3 indirect(std::size_t lumel, std::size_t solution) const;
     glm::vec3 brought(std::size_t lumel, std::size_t solution) const;
     glm::vec3 arrived(std::size_t lumel) const;
+    void make_filter();
     void combine();
     void estimate();
 

@@ -109,8 +109,7 @@ RayDistances find_distances(const LinkWork& work, const SubLumels& parts,
                     continue;
                 const std::uint32_t j = parts.lumel(numbers.part(end.number()));
                 const WorldLumel& hit = work.world[j];
-                const glm::vec3 at = work.cells.centre(j, hit.centre, end.cell());
-                add(i, std::max(glm::distance(lumel.centre, at),
+                add(i, std::max(glm::distance(lumel.centre, hit.centre) - 0.5f * hit.size,
                                 kNearSides * std::max(lumel.size, hit.size)));
             }
             for (const NearLink& near : row.near)
