@@ -100,9 +100,17 @@ LightSources::LightSources(const Scene& scene, const Surfaces& surfaces, float e
     : scene_(&scene),
       surfaces_(&surfaces),
       extent_(extent),
-      selection_(std::move(selection)),
-      most_(selection_.sky ? kInfinite : 0.0f)
+      selection_(std::move(selection))
 {
+    find();
+}
+
+void LightSources::find()
+{
+    bright_ = {};
+    bright_sampler_.reset();
+    bright_power_ = 0.0;
+    most_ = selection_.sky ? kInfinite : 0.0f;
     if (selection_.sky)
         cut_sky();
     place();

@@ -42,6 +42,8 @@ public:
 
     /// Updates the positions of lamps and surfaces.
     void place();
+    /// Finds all sources again, after lamps, emission or sky of the scene have changed.
+    void find();
 
     std::size_t count() const { return sources_.size(); }
 

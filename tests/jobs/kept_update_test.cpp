@@ -55,16 +55,20 @@ struct Kept {
     StoredSolution solution;
 };
 
-std::unique_ptr<LinkRadiosity> lit(const EditedScene& edit, const Kept& kept,
-                                   const StoredLinks& links)
+std::unique_ptr<KeptSolution> lit(const EditedScene& edit, const Kept& kept,
+                                  const StoredLinks& links)
 {
-    return lit_over_links(edit.now, kept.record, links, LinkRadiosity::Then::add, {});
+    auto solution =
+        std::make_unique<KeptSolution>(edit.now, kept.record, links, LinkRadiosity::Then::add);
+    solution->light({});
+    return solution;
 }
 
 void expect_as_anew(const EditedScene& edit, const Kept& kept)
 {
     const StoredLinks mine = links_for(edit, kept.links), none;
-    const auto over = lit(edit, kept, mine), anew = lit(edit, kept, none);
+    const auto one = lit(edit, kept, mine), other = lit(edit, kept, none);
+    LinkRadiosity *const over = &one->solver(), *const anew = &other->solver();
     EXPECT_GT(over->traced(), 0u);
     EXPECT_LT(2 * over->traced(), anew->traced());
     const StoredLinks found = over->kept(""), wanted = anew->kept("");
@@ -115,7 +119,7 @@ TEST(KeptUpdate, OfThingsInAnotherOrderTracesNoneButNearOnes)
     std::size_t near = 0;
     for (const std::vector<LinkEnd>& ends : kept.links.rounds[0].ends)
         near += std::size_t(std::count(ends.begin(), ends.end(), LinkEnd::of(LinkNumbers::kNear)));
-    EXPECT_EQ(lit(edit, kept, mine)->traced(), near);
+    EXPECT_EQ(lit(edit, kept, mine)->solver().traced(), near);
 }
 
 TEST(KeptUpdate, UsesNoLinksOfAnotherNumberOfInstances)

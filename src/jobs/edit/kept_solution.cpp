@@ -73,20 +73,22 @@ StoredLinks links_for(const EditedScene& edit, const StoredLinks& before)
     return renumbered(before, numbers);
 }
 
-std::unique_ptr<LinkRadiosity> lit_over_links(const SolveScene& scene, const BakeRecord& baked,
-                                              const StoredLinks& links, LinkRadiosity::Then then,
-                                              const ProgressCallback& progress)
+KeptSolution::KeptSolution(const SolveScene& scene, const BakeRecord& baked,
+                           const StoredLinks& links, LinkRadiosity::Then then)
+    : options_(limits_of(baked)),
+      solver_(scene, std::get<LinksOptions>(options_.method), options_.limits(), baked.parts)
 {
-    const SolverOptions options = limits_of(baked);
-    auto solver = std::make_unique<LinkRadiosity>(scene, std::get<LinksOptions>(options.method),
-                                                  options.limits(), baked.parts);
     if (!links.rounds.empty())
-        solver->use(links, then);
-    solve(*solver, options, [&](const SolverState& state) {
+        solver_.use(links, then);
+}
+
+void KeptSolution::light(const ProgressCallback& progress)
+{
+    solver_.relight();
+    solve(solver_, options_, [&](const SolverState& state) {
         notify(progress, state.shots > 0 ? kFirstLight : kFirstLight * state.begun);
         return true;
     });
-    return solver;
 }
 
 }  // namespace lumel

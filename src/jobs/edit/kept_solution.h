@@ -1,8 +1,6 @@
 #pragma once
 // Bakes with links stored for later runs.
 
-#include <memory>
-
 #include "jobs/edit/edited_scene.h"
 #include "jobs/solve/bake_options.h"
 #include "links/trace/links.h"
@@ -18,10 +16,20 @@ void check_links(const StoredLinks& links, const BakeRecord& baked, const std::s
 /// Stored links renumbered for the scene after an edit.
 StoredLinks links_for(const EditedScene& edit, const StoredLinks& before);
 
-/// Light of a scene over stored links, found as that of their bake, to the same target error. All
-/// arguments but the progress must outlive the result.
-std::unique_ptr<LinkRadiosity> lit_over_links(const SolveScene& scene, const BakeRecord& baked,
-                                              const StoredLinks& links, LinkRadiosity::Then then,
-                                              const ProgressCallback& progress);
+/// Lights a scene over stored links as their bake did, to the same target error.
+class KeptSolution {
+public:
+    /// Scene and links must outlive this.
+    KeptSolution(const SolveScene& scene, const BakeRecord& baked, const StoredLinks& links,
+                 LinkRadiosity::Then then);
+
+    /// Solves for the present lamps, emission and sky of the scene.
+    void light(const ProgressCallback& progress);
+    LinkRadiosity& solver() { return solver_; }
+
+private:
+    const SolverOptions options_;
+    LinkRadiosity solver_;
+};
 
 }  // namespace lumel

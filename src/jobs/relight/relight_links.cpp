@@ -81,6 +81,8 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
     OutputFolder output((fs::path(folder) / "states").string());
 
     stages.begin("states");
+    KeptSolution solution(world, baked.record, baked.links, LinkRadiosity::Then::end);
+    LinkRadiosity& light = solution.solver();
     RelightSummary summary;
     std::uint64_t traced = 0;
     for (std::size_t s = 0; s < states.size(); ++s) {
@@ -90,21 +92,17 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
         const double start = wall_seconds();
         lights.set(states[s].light);
         world.surfaces = Surfaces(world.scene);  // with the emission of this state
-        std::unique_ptr<LinkRadiosity> light;
-        if (!unless_stopped([&] {
-                light = lit_over_links(world, baked.record, baked.links, LinkRadiosity::Then::end,
-                                       part_of(progress, before, before + part));
-            }))
+        if (!unless_stopped([&] { solution.light(part_of(progress, before, before + part)); }))
             break;
-        traced += light->traced();
+        traced += light.traced();
         const double found = wall_seconds();
-        const Image map = finish_map(world.scene, world.atlas, world.lumels, light->irradiance());
+        const Image map = finish_map(world.scene, world.atlas, world.lumels, light.irradiance());
         write_map(output, states[s].name, map, baked.record.half, world, stages);
         summary.states.push_back({.name = states[s].name,
                                   .light = found - start,
                                   .files = wall_seconds() - found,
-                                  .error = light->state().error,
-                                  .dark_error = light->state().dark_error});
+                                  .error = light.state().error,
+                                  .dark_error = light.state().dark_error});
     }
     stages.end();
     if (!summary.states.empty())

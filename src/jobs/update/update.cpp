@@ -121,18 +121,19 @@ std::vector<glm::vec3> light_over_links(const EditedScene& edit, StoredLinks& ke
 {
     const StoredLinks mine = links_for(edit, std::exchange(kept, {}));
     stages.begin("solving");
-    const std::unique_ptr<LinkRadiosity> solver =
-        lit_over_links(edit.now, baked, mine, LinkRadiosity::Then::add, stages.callback());
-    const SolverState state = solver->state();
-    row.rays = solver->traced();
-    row.links = solver->sent();
+    KeptSolution solution(edit.now, baked, mine, LinkRadiosity::Then::add);
+    solution.light(stages.callback());
+    LinkRadiosity& solver = solution.solver();
+    const SolverState state = solver.state();
+    row.rays = solver.traced();
+    row.links = solver.sent();
     baked.shots = state.shots;
     baked.keep_links = std::uint32_t(state.shots);
     baked.iterations = state.iterations;
     baked.error = state.error;
     baked.dark_error = state.dark_error;
-    kept = solver->kept(edit.now.scene.hash);
-    return solver->irradiance();
+    kept = solver.kept(edit.now.scene.hash);
+    return solver.irradiance();
 }
 
 void check_paths(const std::string& folder, const std::string& scene_path)

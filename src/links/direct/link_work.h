@@ -1,5 +1,5 @@
 #pragma once
-// Constant inputs of all stages of the link engine.
+// Inputs of all stages of the link engine: constant but for the sources of light.
 
 #include <memory>
 #include <vector>
@@ -47,7 +47,7 @@ struct LinkWork {
     const WorldLumels world;
     const Cells cells;
     const RayOrigins starts;
-    const LightSources sources;
+    LightSources sources;                    ///< LightSources::find() after changes of light
     const std::vector<std::uint32_t> order;  ///< [N]
 };
 

@@ -109,7 +109,7 @@ LiveLinks::LiveLinks(std::unique_ptr<SolveScene> of, const LiveLinksOptions& opt
       world_(scene(), rays_.still(), lumels()),
       starts_(world_, nullptr, rays_.ray_offset(), false),
       given_sky_(scene().sky),
-      sources_(std::in_place, scene(), scene_->surfaces, scene_->extent()),
+      sources_(scene(), scene_->surfaces, scene_->extent()),
       lumels_of_(lumels_by_thing(lumels(), rays_)),
       links_(place(), side_of_rays(options.rays), options.seed),
       light_(place(), options.light),
@@ -125,7 +125,7 @@ LinkContext LiveLinks::place() const
 {
     if (rays_.still().parts() == 0)
         throw Error(ErrorKind::input, scene().path, "has no static geometry");
-    return {*scene_, rays_, world_, starts_, *sources_};
+    return {*scene_, rays_, world_, starts_, sources_};
 }
 
 void LiveLinks::set_lamp(const std::string& name, const glm::vec3& factor)
@@ -180,11 +180,10 @@ void LiveLinks::replace_sky(Sky sky, double angle)
     place_sky(angle);
 }
 
-/// The Sky object keeps its address: others refer to it.
 void LiveLinks::place_sky(double angle)
 {
     scene_->scene.sky = angle != 0.0 ? turned(given_sky_, angle) : given_sky_;
-    sources_.emplace(scene(), scene_->surfaces, scene_->extent());
+    sources_.find();
     links_.find_sky();
     light_.find_again(Part::sky, 0);
     light_.set_factor(Part::sky, 0, sky_factor_);  // its bright part may be new
@@ -219,7 +218,7 @@ void LiveLinks::move_light(std::uint32_t light, const glm::mat4& transform)
 {
     check_index(light, scene().lights, "light");
     scene_->scene.lights[light].transform = transform;
-    sources_->place();
+    sources_.place();
     light_.find_again(Part::light, light);
     edited_ = true;
 }
@@ -296,7 +295,7 @@ void LiveLinks::put_requested()
             following_.back().order = follow_order(world_, lumels_of_[t], rays_.box(t));
             requested_[t].reset();
         }
-    sources_->place();
+    sources_.place();
     light_.place();
 }
 

@@ -162,7 +162,7 @@ private:
     WorldLumels world_;
     RayOrigins starts_;
     Sky given_sky_;
-    std::optional<LightSources> sources_;                ///< never empty; replaced with the sky
+    LightSources sources_;
     std::vector<std::vector<std::uint32_t>> lumels_of_;  ///< [things] lumels on each
     LumelLinks links_;
     LightGroups light_;

@@ -218,8 +218,6 @@ void LinkRadiosity::read_state(StateReader& reader)
     state(reader);
     state_.full = false;
     check_sizes();
-    if (stage_ == Stage::direct && !mean_.light.empty())
-        make_filter();
 }
 
 /// Throws if the state that was read is of other lumels or sub-lumels.
@@ -263,10 +261,16 @@ void LinkRadiosity::cut()
         changes_ = changes_since(*stored_, work_.scene, work_.world, options_.seed);
     parts_.emplace(work_.world, work_.cells, work_.scene.rays, work_.scene.lumels, work_.order,
                    PathSamples::hash(options_.seed, kPartStream));
-    direct_.emplace(work_, PathSamples::hash(options_.seed, kDirectStream));
     numbers_.emplace(work_.scene.scene.instances.size(), parts_->count());
-    tracer_.emplace(work_, *parts_, *numbers_, *direct_, options_.seed);
     solver_.emplace(work_, *parts_, *numbers_);
+    find_light();
+}
+
+/// Prepares direct light and links of the present sources.
+void LinkRadiosity::find_light()
+{
+    direct_.emplace(work_, PathSamples::hash(options_.seed, kDirectStream));
+    tracer_.emplace(work_, *parts_, *numbers_, *direct_, options_.seed);
     for (std::optional<LinkTable>& links : links_)
         links.emplace(parts_->count());
 }
@@ -332,6 +336,7 @@ void LinkRadiosity::begin_round()
     if (most_shots_ > state_.shots)
         mean_rays_ = std::min(mean_rays_, double(most_shots_ - state_.shots) / double(kSolutions));
     share_out_rays();
+    filter_.reset();
     begin_links();
 }
 
@@ -396,7 +401,7 @@ void LinkRadiosity::share_out_rays()
                 sent[i] += double(source.rays[p]) / double(kSolutions);
         square[i] = weight[i] * double(mean_.noise[i]) * sent[i];
     }
-    std::vector<double> deviation = filter_ ? filter_->mean_nearby(square) : square;
+    std::vector<double> deviation = filter() ? filter()->mean_nearby(square) : square;
     for (double& one : deviation)
         one = std::sqrt(one);
     const double wanted = (1.0 - kEvenShare) * mean_rays_ * double(rays_.size());
@@ -575,13 +580,16 @@ glm::vec3 LinkRadiosity::indirect(std::size_t i, std::size_t k) const
     return rays > 0 ? sum / float(rays) : glm::vec3(0.0f);
 }
 
-void LinkRadiosity::make_filter()
+/// The filter for the present links; null: none.
+const ChartFilter* LinkRadiosity::filter()
 {
-    filter_.reset();
-    if (options_.filter)
+    if (!options_.filter)
+        return nullptr;
+    if (!filter_)
         filter_.emplace(work_, *parts_,
                         find_distances(work_, *parts_, *numbers_,
                                        std::array{&*links_[0], &*links_[1], &*links_[2]}));
+    return &*filter_;
 }
 
 /// Averages the solutions.
@@ -593,8 +601,7 @@ void LinkRadiosity::combine()
         for (std::size_t i = 0; i < found[k].size(); ++i)
             found[k][i] = brought(i, k);
     }
-    make_filter();
-    mean_ = filter_ ? filter_->indirect(found) : plain_mean(found);
+    mean_ = filter() ? filter()->indirect(found) : plain_mean(found);
 }
 
 /// Adds the error of direct light to that of rays.
@@ -612,8 +619,8 @@ void LinkRadiosity::estimate()
         }
         Errors errors() const { return {relative(rays.sum()), relative(direct.sum())}; }
     };
-    const Mean direct = filter_ ? filter_->direct(direct_->half(0), direct_->half(1))
-                                : plain_mean(direct_->half(0), direct_->half(1));
+    const Mean direct = filter() ? filter()->direct(direct_->half(0), direct_->half(1))
+                                 : plain_mean(direct_->half(0), direct_->half(1));
     direct_light_ = direct.light;
     const auto add = [&](Sums& sums, std::size_t i, double light) {
         if (parts_wanted_ != Parts::indirect)

@@ -69,6 +69,9 @@ public:
     /// Before the first step: takes links of an earlier run, which must outlive this, and traces
     /// only those that can have changed. The light is that of links traced anew, bit for bit.
     void use(const StoredLinks& links, Then then);
+    /// Starts again after lamps, emission or sky of the scene have changed: keeps what geometry
+    /// alone determines, and the links of use(). The light is that of a new solver, bit for bit.
+    void relight();
     /// Links to store for a later run, after a round has ended. hash: Scene::hash.
     StoredLinks kept(const std::string& hash) const;
     /// Rays that lumels have sent, without the known ones.
@@ -98,6 +101,7 @@ private:
     void for_each_block(const Visit& visit) const;
     void check_sizes() const;
     void cut();
+    void find_light();
     void trace();
     void begin_round();
     void begin_known_round();
@@ -120,7 +124,7 @@ private:
     glm::vec3 indirect(std::size_t lumel, std::size_t solution) const;
     glm::vec3 brought(std::size_t lumel, std::size_t solution) const;
     glm::vec3 arrived(std::size_t lumel) const;
-    void make_filter();
+    const ChartFilter* filter();
     void combine();
     void estimate();
 
@@ -139,11 +143,11 @@ private:
     std::optional<DirectEstimator> direct_;
     std::optional<LinkTracer> tracer_;
     std::optional<LinkSolver> solver_;
+    std::optional<ChartFilter> filter_;  ///< for the present links; empty: not made
     // Solutions share no random numbers except those of direct light.
     std::array<std::optional<LinkTable>, kSolutions> links_;
     std::array<SourceTerm, kSolutions> sources_;               ///< of the last sweeps
     std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] without direct light
-    std::optional<ChartFilter> filter_;                        ///< by the links so far
     Mean mean_;                                                ///< filtered mean of solutions
     std::vector<glm::vec3> direct_light_;                      ///< [N] [lx] filtered
     Stage stage_ = Stage::begin;

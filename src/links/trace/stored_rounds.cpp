@@ -12,6 +12,23 @@ void LinkRadiosity::use(const StoredLinks& links, Then then)
     then_ = then;
 }
 
+void LinkRadiosity::relight()
+{
+    work_.sources.find();
+    if (stage_ == Stage::begin)
+        return;
+    if (means_.size() != (stored_ ? stored_->rounds.size() : 0))
+        filter_.reset();
+    find_light();
+    received_ = {};
+    mean_ = {};
+    direct_light_ = {};
+    round_ = 0;
+    means_.clear();
+    state_ = {};
+    stage_ = Stage::direct;
+}
+
 bool LinkRadiosity::has_known_round() const
 {
     return stored_ && round_ < stored_->rounds.size();

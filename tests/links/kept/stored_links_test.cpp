@@ -109,6 +109,47 @@ TEST(KeptLight, OfOtherLampsAndSkyOverLinksFromAFileIsThatOfANewTracing)
     EXPECT_EQ(over.light.state().error, anew.light.state().error);
 }
 
+/// Each state after the first is found by a solver that has lit others.
+TEST(KeptLight, OfSeveralStatesByOneSolverIsThatOfNewOnes)
+{
+    const StoredLinks kept = Lit(test::open_box()).kept();
+    Lit over(test::open_box(), &kept);
+    const auto expect_as_anew = [&] {
+        over.prepared.surfaces = Surfaces(over.prepared.scene);
+        over.light.relight();
+        over.solve(nullptr);
+        Lit anew(over.prepared.scene, &kept);
+        EXPECT_EQ(over.light.irradiance(), anew.light.irradiance());
+        EXPECT_EQ(over.light.state().error, anew.light.state().error);
+        EXPECT_EQ(over.light.state().shots, anew.light.state().shots);
+        EXPECT_EQ(over.light.traced(), anew.light.traced());
+    };
+    Scene& scene = over.prepared.scene;
+    scene.lights[0].transform[3] = glm::vec4(0.4f, 0.45f, 0.1f, 1.0f);
+    expect_as_anew();
+    scene.sky.radiance.assign(scene.sky.radiance.size(), glm::vec3(2.0f));  // no bright part
+    for (Material& material : scene.materials)
+        material.emitted *= 0.4f;
+    expect_as_anew();
+    scene.lights.clear();
+    scene.sky = {};
+    expect_as_anew();
+    const Scene given = test::open_box();
+    scene.lights = given.lights;
+    scene.sky = given.sky;
+    expect_as_anew();
+}
+
+TEST(KeptLight, ByASolverOfItsOwnLinksIsThatOfANewOne)
+{
+    Lit light(test::open_box());
+    light.prepared.scene.lights[0].color = glm::vec3(0.2f, 0.5f, 1.0f);
+    light.light.relight();
+    light.solve(nullptr);
+    Lit anew(light.prepared.scene);
+    EXPECT_EQ(light.light.irradiance(), anew.light.irradiance());
+}
+
 TEST(KeptLight, ThroughColouredGlassIsThatOfANewTracing)
 {
     Scene scene = test::open_box();
