@@ -53,6 +53,11 @@ void add_follow_options(Command& command, PlayOptions& options)
           &options.leak, text_of(options.leak), between(kMinLeak, kMaxLeak)},
          {"--links", "N", "With --solver links, rays stored per lumel: 4, 16, 64 or 256",
           &options.link_rays, text_of(options.link_rays), link_rays()},
+         {"--error", "PERCENT",
+          "With --solver links and without --budget, bake each frame to this estimated relative "
+          "error; 0: show the light of links",
+          [&options](double percent) { options.bake_error = percent / 100.0; },
+          text_of(100.0 * options.bake_error), between(0.0, kMaxErrorPercent)},
          {"--budget", "MS",
           "Milliseconds per frame for updating the light; if they are not enough, it lags behind",
           &options.budget_ms, "unlimited", positive()},
@@ -78,8 +83,10 @@ void add_film_options(Command& command, PlayOptions& options)
 /// Throws Error{input} if an option was given that is of another method.
 void refuse_others(const Command& command, const std::string& method)
 {
-    const std::pair<const char*, const char*> owners[] = {
-        {"--redistribution", "progressive"}, {"--leak", "directions"}, {"--links", "links"}};
+    const std::pair<const char*, const char*> owners[] = {{"--redistribution", "progressive"},
+                                                          {"--leak", "directions"},
+                                                          {"--links", "links"},
+                                                          {"--error", "links"}};
     for (const auto& [option, owner] : owners)
         if (method != owner && command.given(option))
             throw Error(ErrorKind::input, option, "is not read by --solver " + method);
@@ -99,6 +106,9 @@ PlayArguments with_method(PlayArguments play, const Command& command, const Give
     const MethodOptions chosen = method.options();
     refuse_omitted(method, kOmitted);
     refuse_others(command, method.id);
+    if (command.given("--error") && play.options.bake_error > 0.0 && command.given("--budget"))
+        throw Error(ErrorKind::input, "--error",
+                    "bakes frames, which takes longer than a --budget");
     if (!command.given("--residual"))
         play.options.residual = residual_of(chosen);
     if (const auto* links = std::get_if<LinksOptions>(&chosen))

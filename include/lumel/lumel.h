@@ -497,8 +497,13 @@ public:
     /// indirect light. Exceeds the budget by at most a few milliseconds. Infinity: until converged.
     LiveLinksState update(double budget_ms);
     const LiveLinksState& state() const;  ///< after the last update()
+    /// Solves the scene as it is now by the method of bake(), with all edits, to this estimated
+    /// relative error, and returns that reached. map() and lumels() then contain this light until
+    /// the next edit. Takes as long as a bake. Throws Error{input} unless the error is above 0, or
+    /// if the light of a closed room is never absorbed.
+    double bake(double error = 0.02);
 
-    /// The lightmap after the last update(), finished as by bake(), which takes time.
+    /// The lightmap after the last update() or bake(), finished as by bake(), which takes time.
     Map map() const;
     /// H [lx] of front sides without gutters and seams, in little time: RGB; A is 1 at lumels, else
     /// 0.

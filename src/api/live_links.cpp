@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "api/scene.h"
 #include "api/translate.h"
@@ -69,6 +70,7 @@ glm::mat4 placed(const PunctualLight& lamp, const LampPlace& place, const glm::d
 
 struct LinksImpl {
     std::vector<std::uint32_t> movers;
+    LinksOptions baking;
     lumel::LiveLinks live;
     std::vector<glm::mat4> given;  ///< [instances] transforms in the scene
     std::vector<Surface> surfaces;
@@ -76,6 +78,7 @@ struct LinksImpl {
 
     LinksImpl(const lumel::Scene& scene, const LiveLinksSettings& settings)
         : movers(settings.movers),
+          baking{.seed = settings.seed, .filter = settings.filter},
           live(lay_out_movers(scene, checked_options(settings.atlas), movers),
                links_options(settings)),
           surfaces(surfaces_of(live.scene(), live.atlas()))
@@ -169,6 +172,18 @@ LiveLinksState LiveLinks::update(double budget_ms)
     });
 }
 
+double LiveLinks::bake(double error)
+{
+    return translated([&] {
+        if (!(error > 0.0 && std::isfinite(error)))
+            throw lumel::Error(lumel::ErrorKind::input, "error", "must be above 0");
+        update(std::numeric_limits<double>::infinity());
+        lumel::LiveLinks& live = impl_->live;
+        live.show(bake_standing(live.standing(), live.lumels(), impl_->baking, error));
+        return live.baked()->error;
+    });
+}
+
 const LiveLinksState& LiveLinks::state() const
 {
     return impl_->state;
@@ -178,7 +193,7 @@ Map LiveLinks::map() const
 {
     return translated([&] {
         const lumel::LiveLinks& live = impl_->live;
-        return map_of(finish_map(live.scene(), live.atlas(), live.lumels(), live.shown()));
+        return map_of(finish_map(live.scene(), live.atlas(), live.shown_lumels(), live.shown()));
     });
 }
 

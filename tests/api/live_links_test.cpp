@@ -108,6 +108,40 @@ TEST(LiveLinkScenes, MovedAndMovedBackAreLitAsBefore)
     EXPECT_LT(std::sqrt(squares / count), 5e-4 * mean_of(before));
 }
 
+double difference(const Map& one, const Map& other)
+{
+    double squares = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < one.rgba.size(); ++i) {
+        squares += std::pow(double(one.rgba[i] - other.rgba[i]), 2.0);
+        count += 1.0;
+    }
+    return std::sqrt(squares / count);
+}
+
+TEST(LiveLinkScenes, AreBakedUntilTheNextEdit)
+{
+    const Scene scene = room();
+    const std::uint32_t box = scene.find_instance("box");
+    LiveLinks live(scene, settings_for(scene));
+    live.move(box, shifted(scene.instances()[box].transform, {0.3f, 0.0f, 0.2f}));
+    const double error = live.bake(0.01);
+    EXPECT_TRUE(live.state().at_rest);
+    EXPECT_GT(error, 0.0);
+    EXPECT_LE(error, 0.01);
+    const Map baked = live.lumels();
+    LiveLinks other(scene, settings_for(scene));
+    other.move(box, shifted(scene.instances()[box].transform, {0.3f, 0.0f, 0.2f}));
+    other.update(kUntilAtRest);
+    EXPECT_GT(difference(other.lumels(), baked), 0.0);
+    EXPECT_LT(difference(other.lumels(), baked), 0.1 * mean_of(baked));
+    other.bake(0.01);
+    EXPECT_EQ(other.lumels().rgba, baked.rgba);
+    live.set_color("white", {0.1f, 0.1f, 0.1f});
+    live.update(kUntilAtRest);
+    EXPECT_NE(live.lumels().rgba, baked.rgba);
+    EXPECT_THROW(live.bake(0.0), Error);
+}
+
 /// The room as it would lie on a map, so far out that floats are coarse.
 Scene far_room(const lumel::test::TemporaryFolder& folder, const Vec3& offset)
 {

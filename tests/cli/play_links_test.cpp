@@ -108,6 +108,8 @@ TEST(PlayLinks, WritesAPictureAndARowForEachFrame)
         EXPECT_FALSE(rows[k].contains("hemicubes"));
         EXPECT_LE(rows[k]["residual"], 2e-4);
         EXPECT_EQ(rows[k]["at_rest"], true);
+        EXPECT_GT(rows[k]["estimated_error"], 0.0);
+        EXPECT_LE(rows[k]["estimated_error"], 0.02);
         EXPECT_GT(rows[k]["sweeps"], 0);
     }
     EXPECT_EQ(rows[0]["links"], 0);
@@ -160,8 +162,9 @@ TEST(PlayLinks, WithABudgetLightLagsAndIsRightOnceAtRest)
     EXPECT_GT(lags, 10);
     // After two seconds the door stands still.
     EXPECT_EQ(hurried[249]["at_rest"], true);
-    const Json whole = rows_of(
-        play_seconds(scene, place.path("whole"), {"--size", "128", "--exposure", kExposure}));
+    EXPECT_FALSE(hurried[249].contains("estimated_error"));
+    const Json whole = rows_of(play_seconds(
+        scene, place.path("whole"), {"--size", "128", "--exposure", kExposure, "--error", "0"}));
     ASSERT_EQ(whole.size(), 3u);
     EXPECT_NEAR(brightness(place.path("hurried/frame-0250.png")).mean,
                 brightness(place.path("whole/frame-0003.png")).mean, 0.1);
@@ -176,6 +179,8 @@ TEST(PlayLinks, RefusesWhatItDoesNotRead)
                                                   {"--sampling", "centre"}})
         expect_one_sentence(run_lumel(play(scene, out, given)), 2, {given[0], "--solver links"});
     expect_one_sentence(run_lumel(play(scene, out, {"--links", "50"})), 2, {"--links", "50", "64"});
+    expect_one_sentence(run_lumel(play(scene, out, {"--error", "1", "--budget", "5"})), 2,
+                        {"--error", "--budget"});
     expect_one_sentence(run_lumel({"play", scene, out, "--links", "16"}), 2,
                         {"--links", "--solver progressive"});
     EXPECT_EQ(place.listing(), std::vector<std::string>{});

@@ -206,7 +206,7 @@ TEST(View, WhatIsNotSettledIsShownInPerCent)
         return Played(own_scene("cornell-box.gltf"),
                       "mode error\nstate first.json\nwait\nstate rest.json\n"
                       "pick 60,110\nscale 0.5,50\npicture error.png\nstate floor.json\n",
-                      {"--links", rays});
+                      {"--links", rays, "--error", "0"});
     };
     const Played few = play("16"), many = play("256");
     const auto mean = [](const Played& played, const std::string& name) {

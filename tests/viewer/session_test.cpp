@@ -18,8 +18,8 @@ namespace {
 constexpr int kWidth = 96;  // of pictures [pixels]
 
 struct Box {
-    Box()
-        : session(device, read_gltf(support::source_path("scenes/cornell-box.gltf")), {}, options())
+    explicit Box(const SessionOptions& options = Box::options())
+        : session(device, read_gltf(support::source_path("scenes/cornell-box.gltf")), {}, options)
     {
     }
     ~Box() { EXPECT_EQ(device.validation_messages(), ""); }
@@ -34,6 +34,13 @@ struct Box {
     void settle()
     {
         while (!session.frame().at_rest) {
+        }
+    }
+    /// As scripts wait and the window draws on.
+    void bake()
+    {
+        settle();
+        while (!session.bake(std::chrono::milliseconds(1))) {
         }
     }
     const std::string& name_of(const Picked& picked) const
@@ -163,6 +170,56 @@ TEST(ViewSession, ShowsTheWallBehindWhatIsDeleted)
     ASSERT_TRUE(behind);
     EXPECT_EQ(box.name_of(*behind), "back wall");
     EXPECT_GT(behind->distance, near);
+}
+
+TEST(ViewSession, IsBakedAtRestUntilTheNextEdit)
+{
+    Box box;
+    box.bake();
+    ASSERT_TRUE(box.session.light().baked());
+    EXPECT_LE(box.session.light().baked()->error, Box::options().bake_error);
+    const std::vector<glm::vec3> before = box.session.irradiance();
+    EXPECT_EQ(before, box.session.light().baked()->irradiance);
+    box.session.pick("short block");
+    box.session.move({0.0f, 0.0f, -0.05f});
+    EXPECT_FALSE(box.session.light().baked());
+    box.settle();
+    const std::vector<glm::vec3> by_links = box.session.irradiance();
+    EXPECT_NE(by_links, before);
+    box.bake();
+    EXPECT_NE(box.session.irradiance(), by_links);
+
+    // As a method solves the same scene.
+    SolverOptions links;
+    links.method = LinksOptions{.seed = Box::options().seed, .rays = Rays::host};
+    const SolvedLight solved =
+        solve_standing(box.device, box.session.standing(MaterialModel::diffuse),
+                       box.session.light().lumels(), links);
+    EXPECT_EQ(box.session.irradiance(), solved.irradiance);
+}
+
+TEST(ViewSession, AnEditDropsABakeThatIsUnderWay)
+{
+    Box box;
+    box.settle();
+    EXPECT_FALSE(box.session.bake(std::chrono::milliseconds(0)));
+    EXPECT_TRUE(box.session.is_baking());
+    box.session.set_lamp("light", glm::vec3(0.0f));
+    EXPECT_FALSE(box.session.is_baking());
+    EXPECT_FALSE(box.session.bake(std::chrono::seconds(60))) << "that of the scene before";
+    EXPECT_FALSE(box.session.light().baked());
+    box.bake();
+    for (const glm::vec3& light : box.session.irradiance())
+        EXPECT_EQ(light, glm::vec3(0.0f));
+}
+
+TEST(ViewSession, IsNotBakedAgainstAWish)
+{
+    SessionOptions options = Box::options();
+    options.bake_error = 0.0;
+    Box box(options);
+    box.bake();
+    EXPECT_FALSE(box.session.light().baked());
 }
 
 TEST(ViewSession, ALampByHalfLightsAllByHalf)

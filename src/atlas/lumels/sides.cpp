@@ -5,6 +5,24 @@
 
 namespace lumel {
 
+std::vector<std::uint32_t> lumels_alike(const Lumels& from, const Lumels& to)
+{
+    const std::vector<std::uint32_t> by_side = lumels_by_side(to);
+    std::vector<std::uint32_t> alike;
+    for (const Lumel& lumel : from.lumels)
+        alike.push_back(by_side[place_by_side(lumel)]);
+    return alike;
+}
+
+Lumels with_buried(Lumels lumels, const std::vector<char>& buried)
+{
+    for (std::size_t i = 0; i < buried.size(); ++i) {
+        std::uint32_t& flags = lumels.lumels[i].flags;
+        flags = buried[i] ? flags | kLumelBuried : flags & ~kLumelBuried;
+    }
+    return lumels;
+}
+
 bool has_own_back(std::span<const glm::ivec2> back_shift, std::uint32_t chart)
 {
     return chart < back_shift.size() && back_shift[chart] != glm::ivec2(0);

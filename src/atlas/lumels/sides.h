@@ -27,6 +27,13 @@ inline std::size_t place_by_side(const Lumel& lumel)
     return place_by_side(lumel.texel, is_back(lumel));
 }
 
+/// [lumels of `from`] The lumel of `to` at the same texel and side, or kNoLumel. Both are of one
+/// atlas, or of parts of it.
+std::vector<std::uint32_t> lumels_alike(const Lumels& from, const Lumels& to);
+
+/// The lumels, with those buried that `buried` [N] says, and no others.
+Lumels with_buried(Lumels lumels, const std::vector<char>& buried);
+
 /// The lumel at a texel and side (0: front, 1: back), by lumels_by_side(). kNoLumel if there is
 /// none that can receive light.
 inline std::uint32_t lit_lumel_at(const Lumels& lumels, std::span<const std::uint32_t> by_side,

@@ -1,5 +1,7 @@
 #include "jobs/play/links_light.h"
 
+#include <chrono>
+#include <cmath>
 #include <map>
 
 #include "base/core/clock.h"
@@ -55,12 +57,15 @@ LinksLight::LinksLight(const Scene& start, const Animation& animation, const Pla
     : start_(places_of(start)),
       lamps_(animation.materials),
       groups_(moving_together(start, animation)),
+      links_(std::get<LinksOptions>(options.solver)),
+      bake_error_(options.budget_ms > 0.0 ? 0.0 : options.bake_error),
       live_(laid_out(start, animation, options.atlas), live_options(options, groups_))
 {
 }
 
 void LinksLight::change_to(const Scene& shown, double time)
 {
+    bake_.reset();
     for (std::uint32_t group = 0; group < groups_.size(); ++group) {
         const std::uint32_t any = groups_[group].front();
         const glm::mat4 &now = shown.instances[any].transform, &then = start_[any];
@@ -72,16 +77,33 @@ void LinksLight::change_to(const Scene& shown, double time)
         live_.set_emission(std::uint32_t(lamp.material), emission_factor(lamp, time));
 }
 
+/// Bakes the scene at rest, or waits for `budget_ms` while that is done. Returns true once its
+/// light is displayed.
+bool LinksLight::bake(double budget_ms)
+{
+    if (live_.baked())
+        return true;
+    if (!bake_)
+        bake_.emplace(live_.standing(), live_.lumels(), links_, bake_error_);
+    if (!bake_->has_ended(std::chrono::milliseconds(std::lround(budget_ms))))
+        return false;
+    live_.show(bake_->take().value());
+    bake_.reset();
+    return true;
+}
+
 void LinksLight::update(double budget_ms, FrameRow& row)
 {
     const LiveLinksState before = state_;
     const Clock::time_point start = Clock::now();
     state_ = live_.advance(budget_ms);
+    row.at_rest = state_.at_rest && (!(bake_error_ > 0.0) || bake(budget_ms));
     row.update_ms += ms_since(start);
     row.residual = std::max(state_.residual, state_.dark_residual);
-    row.at_rest = state_.at_rest;
     if (!row.links)
         row.links.emplace();
+    if (live_.baked())
+        row.links->error = live_.baked()->error;
     row.links->retraced += state_.found.links.all() - before.found.links.all();
     row.links->direct += state_.found.direct - before.found.direct;
     row.links->sweeps += state_.all_sweeps - before.all_sweeps;

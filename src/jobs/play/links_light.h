@@ -27,11 +27,16 @@ public:
     const gpu::StageTimes& times() const override { return times_; }
 
 private:
+    bool bake(double budget_ms);
+
     std::vector<glm::mat4> start_;                    ///< [instances] transforms of the first frame
     std::vector<AnimatedMaterial> lamps_;             ///< those with animated emission
     std::vector<std::vector<std::uint32_t>> groups_;  ///< instances that move together
+    const LinksOptions links_;
+    const double bake_error_;
     LiveLinks live_;
-    gpu::StageTimes times_;  ///< none: runs on the CPU
+    std::optional<BakeAside> bake_;  ///< of the present frame
+    gpu::StageTimes times_;          ///< none: runs on the CPU
     LiveLinksState state_;
 };
 

@@ -29,6 +29,9 @@ struct PlayOptions {
     int frames = 0;                            ///< 0: the animation's length
     double fps = 24.0;                         ///< [1/s]
     double budget_ms = 0.0;                    ///< per update, 0: until converged
+    /// With LinksOptions, frames are baked to this estimated relative error; 0, or with a budget:
+    /// they show the light of links.
+    double bake_error = SolverOptions{}.target_error;
     int camera = -1;        ///< index in the file; -1: the first, or a generated one
     int width = 1280;       ///< [pixels]
     Film film = Film::mp4;  ///< if ffmpeg is installed

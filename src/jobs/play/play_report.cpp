@@ -24,6 +24,7 @@ Report play_report(const PlayOptions& options, const PlayedLight& light, const g
         report.settings["leak"] = options.leak;
     else if (std::holds_alternative<LinksOptions>(options.solver)) {
         report.settings["links"] = options.link_rays;
+        report.settings["bake_error"] = options.budget_ms > 0.0 ? 0.0 : options.bake_error;
         for (const char* unread : {"sampling", "rays"})
             (*report.solver)["options"].erase(unread);
     } else

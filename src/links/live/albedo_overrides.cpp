@@ -43,4 +43,12 @@ void AlbedoOverrides::set(const Scene& scene, const Atlas& atlas, int material,
     coat.colour = colour;
 }
 
+void AlbedoOverrides::paint(std::vector<Material>& materials) const
+{
+    for (const auto& [material, coat] : coats_) {
+        glm::vec4& base = materials[std::size_t(material)].base_color;
+        base = glm::vec4(coat.colour, base.a);
+    }
+}
+
 }  // namespace lumel

@@ -19,6 +19,9 @@ public:
     /// belong to the lumels.
     void set(const Scene& scene, const Atlas& atlas, int material, const glm::vec3& colour);
 
+    /// Sets the base colours of materials that are overridden.
+    void paint(std::vector<Material>& materials) const;
+
     const std::vector<glm::vec3>& albedo() const { return albedo_; }  ///< [N] 0…1
 
 private:

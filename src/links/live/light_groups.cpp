@@ -95,6 +95,12 @@ bool LightGroups::set_factor(LightSources::Part part, std::uint32_t index, const
     return true;
 }
 
+glm::vec3 LightGroups::factor(LightSources::Part part, std::uint32_t index) const
+{
+    const std::uint32_t sender = sender_of(part, index);
+    return sender == senders_.size() ? glm::vec3(1.0f) : senders_[sender].factor;
+}
+
 void LightGroups::find_again(LightSources::Part part, std::uint32_t index)
 {
     place();

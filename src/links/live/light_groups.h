@@ -30,6 +30,8 @@ public:
     /// Scales an emitter's light to `factor` × its value in the scene. Returns false if there is
     /// none.
     bool set_factor(LightSources::Part part, std::uint32_t index, const glm::vec3& factor);
+    /// The factor of an emitter; 1 if there is none.
+    glm::vec3 factor(LightSources::Part part, std::uint32_t index) const;
     /// Recomputes a moved light. Requires that the sources are updated.
     void find_again(LightSources::Part part, std::uint32_t index);
     /// Updates the sources of moved surfaces. Requires that the sources are updated.

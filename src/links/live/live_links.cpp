@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "atlas/lumels/sides.h"
 #include "atlas/near/still_part.h"
 #include "base/core/clock.h"
 #include "base/core/error.h"
@@ -128,6 +129,12 @@ LinkContext LiveLinks::place() const
     return {*scene_, rays_, world_, starts_, sources_};
 }
 
+void LiveLinks::note_edit()
+{
+    edited_ = true;
+    baked_.reset();
+}
+
 void LiveLinks::set_lamp(const std::string& name, const glm::vec3& factor)
 {
     const bool has_light =
@@ -143,14 +150,16 @@ void LiveLinks::set_light(std::uint32_t light, const glm::vec3& factor)
 {
     check_index(light, scene().lights, "light");
     check_factor(factor);
-    edited_ |= light_.set_factor(Part::light, light, factor);
+    if (light_.set_factor(Part::light, light, factor))
+        note_edit();
 }
 
 void LiveLinks::set_emission(std::uint32_t material, const glm::vec3& factor)
 {
     check_index(material, scene().materials, "material");
     check_factor(factor);
-    edited_ |= light_.set_factor(Part::material, material, factor);
+    if (light_.set_factor(Part::material, material, factor))
+        note_edit();
 }
 
 void LiveLinks::set_sky(const glm::vec3& factor)
@@ -162,7 +171,7 @@ void LiveLinks::set_sky(const glm::vec3& factor)
         return;
     sky_factor_ = factor;
     light_.set_factor(Part::sky, 0, factor);
-    edited_ = true;
+    note_edit();
 }
 
 void LiveLinks::turn_sky(double angle)
@@ -187,7 +196,7 @@ void LiveLinks::place_sky(double angle)
     links_.find_sky();
     light_.find_again(Part::sky, 0);
     light_.set_factor(Part::sky, 0, sky_factor_);  // its bright part may be new
-    edited_ = true;
+    note_edit();
 }
 
 void LiveLinks::set_albedo(const std::string& name, const glm::vec3& colour)
@@ -205,7 +214,7 @@ void LiveLinks::set_albedo(std::uint32_t material, const glm::vec3& colour)
         throw Error(ErrorKind::input, "colour of \"" + scene().materials[material].name + "\"",
                     "must be from 0 to 1");
     paint_.set(scene(), atlas(), int(material), colour);
-    edited_ = true;
+    note_edit();
 }
 
 void LiveLinks::move_lamp(const std::string& name, const glm::mat4& transform)
@@ -220,7 +229,7 @@ void LiveLinks::move_light(std::uint32_t light, const glm::mat4& transform)
     scene_->scene.lights[light].transform = transform;
     sources_.place();
     light_.find_again(Part::light, light);
-    edited_ = true;
+    note_edit();
 }
 
 std::uint32_t LiveLinks::thing(const std::string& name) const
@@ -267,8 +276,10 @@ void LiveLinks::request(std::uint32_t thing, const glm::mat4& motion)
                     "\"" + scene().instances[rays_.instances(thing).front()].name + "\"",
                     "would be stretched by its motion");
     requested_[thing].reset();
-    if (motion != motions_[thing])
-        requested_[thing] = motion;
+    if (motion == motions_[thing])
+        return;
+    requested_[thing] = motion;
+    baked_.reset();
 }
 
 bool LiveLinks::is_requested() const
@@ -441,8 +452,29 @@ std::uint64_t LiveLinks::bytes() const
            sky_light_.size() * sizeof(glm::vec3);
 }
 
+StandingScene LiveLinks::standing() const
+{
+    StandingScene standing{scene(), atlas()};
+    Scene& now = standing.scene;
+    paint_.paint(now.materials);
+    for (std::uint32_t m = 0; m < now.materials.size(); ++m)
+        now.materials[m].emitted *= light_.factor(Part::material, m);
+    for (std::uint32_t l = 0; l < now.lights.size(); ++l)
+        now.lights[l].color *= light_.factor(Part::light, l);
+    for (glm::vec3& radiance : now.sky.radiance)
+        radiance *= sky_factor_;
+    return standing;
+}
+
+Lumels LiveLinks::shown_lumels() const
+{
+    return baked_ ? with_buried(lumels(), baked_->buried) : lumels();
+}
+
 std::vector<glm::vec3> LiveLinks::shown() const
 {
+    if (baked_)
+        return baked_->irradiance;
     std::vector<glm::vec3> result(lumels().lumels.size());
     parallel_for(result.size(), kSweptPerStep, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
@@ -453,6 +485,8 @@ std::vector<glm::vec3> LiveLinks::shown() const
 
 std::vector<float> LiveLinks::error_estimate() const
 {
+    if (baked_)
+        return baked_->error_estimate;
     const auto to_come = edited_ ? 1.0f : float(std::max(state_.residual, state_.dark_residual));
     std::vector<float> result(lumels().lumels.size());
     parallel_for(result.size(), kSweptPerStep, [&](std::size_t first, std::size_t last) {

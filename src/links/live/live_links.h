@@ -14,6 +14,7 @@
 
 #include "atlas/prepare/solve_scene.h"
 #include "links/live/albedo_overrides.h"
+#include "links/live/baked_light.h"
 #include "links/live/display_filter.h"
 #include "links/live/light_groups.h"
 #include "links/live/lumel_links.h"
@@ -109,11 +110,21 @@ public:
     std::vector<glm::vec3> irradiance() const;
     /// Irradiance for display [N] [lx]: light gathered by rays is filtered
     /// (links/live/display_filter.h) with the weights of the last converged solution. Takes as long
-    /// as part of a sweep.
+    /// as part of a sweep. Baked light, if there is any.
     std::vector<glm::vec3> shown() const;
+    /// Lumels for a map of shown().
+    Lumels shown_lumels() const;
+
+    /// The scene with all edits but moves that are requested and not made, for bake_standing().
+    StandingScene standing() const;
+    /// Displays light of standing() until the next edit.
+    void show(BakedLight light) { baked_ = std::move(light); }
+    /// Null: light of links is displayed.
+    const BakedLight* baked() const { return baked_ ? &*baked_ : nullptr; }
 
     /// [N] Estimated relative error of shown(), 0…1: filtered ray noise plus residual. Excludes
-    /// noise of shadow rays and the filter's bias. 1 until light has first converged.
+    /// noise of shadow rays and the filter's bias. 1 until light has first converged. That of
+    /// baked light, if there is any.
     std::vector<float> error_estimate() const;
 
     const SolveScene& solve_scene() const { return *scene_; }
@@ -140,6 +151,7 @@ private:
     };
 
     LinkContext place() const;
+    void note_edit();
     std::uint32_t thing(const std::string& name) const;
     void put(std::uint32_t thing, const glm::mat4& motion);
     bool is_requested() const;
@@ -174,10 +186,11 @@ private:
     std::vector<glm::mat4> motions_;    ///< [things] relative to the given scene
     std::vector<std::optional<glm::mat4>> requested_;  ///< [things] motions
     std::vector<PendingMove> following_;
-    std::uint64_t unseen_ = 0;  ///< links retraced since the last sweep began
-    bool edited_ = true;        ///< since the last sweep
-    bool swept_ = true;         ///< a complete sweep has run since the last edit
-    bool weighing_ = false;     ///< light has converged, filter weights have not
+    std::uint64_t unseen_ = 0;         ///< links retraced since the last sweep began
+    bool edited_ = true;               ///< since the last sweep
+    bool swept_ = true;                ///< a complete sweep has run since the last edit
+    bool weighing_ = false;            ///< light has converged, filter weights have not
+    std::optional<BakedLight> baked_;  ///< of the present scene
     LiveLinksState state_;
 };
 

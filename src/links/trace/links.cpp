@@ -196,8 +196,9 @@ void LinkRadiosity::step()
 template <class Archive>
 void LinkRadiosity::state(Archive& archive)
 {
-    archive(*direct_, direct_light_, round_, mean_rays_, means_, rays_, traced_, mean_.light,
-            mean_.noise, mean_.wrong, mean_light_, all_, dark_, state_, times_);
+    archive(*direct_, direct_mean_.light, direct_mean_.noise, direct_mean_.wrong, round_,
+            mean_rays_, means_, rays_, traced_, mean_.light, mean_.noise, mean_.wrong, mean_light_,
+            all_, dark_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
         archive(*links_[k], sources_[k].rays, received_[k]);
 }
@@ -230,7 +231,9 @@ void LinkRadiosity::check_sizes() const
     const bool is_tracing = stage_ == Stage::links || stage_ == Stage::solve;
     const std::size_t traced = is_tracing ? traced_ : tracer_->blocks();
     bool fits = stage_ > Stage::begin && stage_ <= Stage::solve && direct_->fits() &&
-                is(rays_.size(), lumels) && is(direct_light_.size(), lumels) &&
+                is(rays_.size(), lumels) && is(direct_mean_.light.size(), lumels) &&
+                direct_mean_.noise.size() == direct_mean_.light.size() &&
+                direct_mean_.wrong.size() == direct_mean_.light.size() &&
                 is(mean_.light.size(), lumels) && is(mean_.noise.size(), lumels) &&
                 is(mean_.wrong.size(), lumels) && traced_ <= tracer_->blocks() &&
                 means_.size() == round_ && (state_.shots > 0) == !mean_.light.empty() &&
@@ -619,12 +622,11 @@ void LinkRadiosity::estimate()
         }
         Errors errors() const { return {relative(rays.sum()), relative(direct.sum())}; }
     };
-    const Mean direct = filter() ? filter()->direct(direct_->half(0), direct_->half(1))
-                                 : plain_mean(direct_->half(0), direct_->half(1));
-    direct_light_ = direct.light;
+    direct_mean_ = filter() ? filter()->direct(direct_->half(0), direct_->half(1))
+                            : plain_mean(direct_->half(0), direct_->half(1));
     const auto add = [&](Sums& sums, std::size_t i, double light) {
         if (parts_wanted_ != Parts::indirect)
-            sums.direct.add(direct, i);
+            sums.direct.add(direct_mean_, i);
         if (!mean_.light.empty())
             sums.rays.add(mean_, i);
         sums.light += light;
@@ -654,9 +656,31 @@ void LinkRadiosity::estimate()
 glm::vec3 LinkRadiosity::arrived(std::size_t i) const
 {
     const glm::vec3 direct = parts_wanted_ == Parts::indirect ? glm::vec3(0.0f)
-                             : direct_light_.empty()          ? direct_->mean(i)
-                                                              : direct_light_[i];
+                             : direct_mean_.light.empty()     ? direct_->mean(i)
+                                                              : direct_mean_.light[i];
     return mean_.light.empty() ? direct : direct + mean_.light[i];
+}
+
+/// The square of one lumel is a rough estimate, so that of its neighbours counts too.
+std::vector<float> LinkRadiosity::error_estimate() const
+{
+    std::vector<float> error(work_.lumels().size(), 1.0f);
+    if (mean_.light.empty())
+        return error;
+    std::vector<double> square(error.size());
+    for (std::size_t i = 0; i < square.size(); ++i)
+        square[i] = double(mean_.noise[i]) +
+                    (parts_wanted_ == Parts::indirect ? 0.0 : double(direct_mean_.noise[i]));
+    const std::vector<double> deviation = deviation_nearby(square, work_.order, 1.0);
+    for (std::size_t i = 0; i < error.size(); ++i) {
+        const glm::vec3 all = arrived(i);
+        const double light = double(all.r + all.g + all.b);
+        // √(Σ d² / 3) / (Σ H / 3)
+        error[i] = work_.is_buried(i) || !(light > 0.0)
+                       ? 0.0f
+                       : float(std::min(std::sqrt(3.0) * deviation[i] / light, 1.0));
+    }
+    return error;
 }
 
 std::vector<glm::vec3> LinkRadiosity::irradiance()

@@ -54,6 +54,9 @@ public:
     void step() override;
     SolverState state() const override { return state_; }
     std::vector<glm::vec3> irradiance() override;
+    /// [N] Estimated error of each lumel relative to its light, 0…1, without the filter's bias; 1
+    /// before the first round has ended, 0 for buried lumels.
+    std::vector<float> error_estimate() const;
     const gpu::StageTimes& times() const override { return times_; }
     double longest_submission() const override { return 0.0; }
     std::string rays() const override
@@ -149,7 +152,7 @@ private:
     std::array<SourceTerm, kSolutions> sources_;               ///< of the last sweeps
     std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] without direct light
     Mean mean_;                                                ///< filtered mean of solutions
-    std::vector<glm::vec3> direct_light_;                      ///< [N] [lx] filtered
+    Mean direct_mean_;                                         ///< filtered mean of direct light
     Stage stage_ = Stage::begin;
     std::uint32_t round_ = 0;          ///< current round
     double mean_rays_ = 0.0;           ///< per lumel in the round, in each solution

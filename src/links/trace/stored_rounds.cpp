@@ -22,7 +22,7 @@ void LinkRadiosity::relight()
     find_light();
     received_ = {};
     mean_ = {};
-    direct_light_ = {};
+    direct_mean_ = {};
     round_ = 0;
     means_.clear();
     state_ = {};

@@ -109,6 +109,8 @@ Json frames(const Report& report)
                         {"sweeps", frame.links->sweeps}});
         else
             row["hemicubes"] = frame.hemicubes;
+        if (frame.links && frame.links->error >= 0.0)
+            row["estimated_error"] = frame.links->error;
         row.update({{"residual", frame.residual}, {"at_rest", frame.at_rest}});
     }
     return rows;

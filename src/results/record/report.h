@@ -37,6 +37,7 @@ struct LinksRow {
     std::uint64_t retraced = 0;  ///< links
     double direct = 0.0;         ///< fraction of direct light recomputed
     std::uint64_t sweeps = 0;
+    double error = -1.0;  ///< estimated, relative; < 0: not baked
 };
 
 /// One image of an animation.

@@ -83,7 +83,8 @@ bool ScriptPlayer::play(const ScriptCommand& command)
         }
         return false;
     case Verb::wait:
-        next_ += session_->frame().at_rest ? 1 : 0;
+        if (session_->is_baking() || session_->frame().at_rest)
+            next_ += session_->bake(kLook) ? 1 : 0;
         return false;
     case Verb::solve:
         if (!solve(command))

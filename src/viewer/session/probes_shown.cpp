@@ -29,7 +29,7 @@ const std::vector<ProbeBall>& ViewSession::probe_balls()
     if (known || !(probe_spacing_ > 0.0) || !(solved || live_.state().at_rest))
         return balls_;
     const StandingScene standing = this->standing(shown_.model);
-    Lumels lumels = solved ? lumels_of_solved() : live_.lumels();
+    Lumels lumels = shown_lumels();
     for (std::size_t i = 0; i < lumels.lumels.size(); ++i)
         lumels.lumels[i].albedo = live_.albedo()[i];
     const LightProbe probe(standing.scene, rays(), drawn_, lumels, irradiance(),

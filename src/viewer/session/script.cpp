@@ -82,7 +82,7 @@ constexpr auto kForms = std::to_array<CommandForm>({
      NumberForm{2, 2, kMinScale, kMaxScale}, ArgumentKind::automatic},
     {Verb::frames, "frames", "N", "update the light for N frames",
      NumberForm{1, 1, 1.0, kMaxFrames, true}},
-    {Verb::wait, "wait", "", "update the light until it has converged"},
+    {Verb::wait, "wait", "", "update the light until it has converged and is baked"},
     {Verb::picture, "picture", "FILE.png", "write the image", kNoNumbers, ArgumentKind::png},
     {Verb::state, "state", "FILE.json", "write light, camera, picked object and frame times",
      kNoNumbers, ArgumentKind::json},

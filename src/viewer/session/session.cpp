@@ -7,6 +7,7 @@
 
 #include "base/core/clock.h"
 #include "base/core/error.h"
+#include "base/core/log.h"
 #include "scene/sky/clear_sky.h"
 #include "viewer/session/view.h"
 
@@ -405,6 +406,37 @@ const LiveLinksState& ViewSession::frame()
         return state;
     by_links_ = {};
     return state;
+}
+
+/// A bake of an earlier scene is waited for, since it stops soon. One that fails is not repeated.
+bool ViewSession::bake(std::chrono::milliseconds wait)
+{
+    if (!(options_.bake_error > 0.0) || live_.baked())
+        return true;
+    if (!bake_) {
+        if (failed_edits_ == edits_)
+            return true;
+        StandingScene standing = this->standing(shown_.model);
+        bake_.emplace(std::move(standing), live_.lumels(),
+                      LinksOptions{.seed = options_.seed, .filter = options_.filter},
+                      options_.bake_error);
+        baked_edits_ = edits_;
+    }
+    if (!bake_->has_ended(wait))
+        return false;
+    const bool is_current = is_baking();
+    try {
+        std::optional<BakedLight> light = bake_->take();
+        if (light && is_current) {
+            live_.show(std::move(*light));
+            by_links_ = {};
+        }
+    } catch (const std::exception& error) {  // such as out of memory: the light of links remains
+        log_warning(fmt::format("the scene at rest was not baked: {}", error.what()));
+        failed_edits_ = baked_edits_;
+    }
+    bake_.reset();
+    return is_current;
 }
 
 }  // namespace lumel

@@ -2,6 +2,7 @@
 // Interactive session with a lit scene: view, pick, move, dim; light is updated by frames.
 
 #include <array>
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ struct SessionOptions {
     std::uint32_t seed = 1;
     bool filter = true;
     double residual = LiveLinksOptions{}.residual;
+    /// Light at rest is baked to this estimated relative error; 0: it remains that of links.
+    double bake_error = SolverOptions{}.target_error;
     double budget_ms = 15.0;              ///< for light, per frame
     int camera = -1;                      ///< index in the file; -1: the first, or a generated one
     int width = 640;                      ///< width of images [pixels]
@@ -173,6 +176,11 @@ public:
 
     /// Updates the light, within the budget of a frame.
     const LiveLinksState& frame();
+    /// Bakes the scene at rest, in a thread of its own. Call after frame() has found it at rest,
+    /// until this returns true: the light of the bake is displayed. Waits for at most `wait`. An
+    /// edit discards the bake.
+    bool bake(std::chrono::milliseconds wait);
+    bool is_baking() const { return bake_ && baked_edits_ == edits_; }
 
     enum class Legend { none, beside };
     /// Display-referred image; false colours with a legend at the right, or without.
@@ -220,7 +228,7 @@ private:
     const std::vector<glm::vec3>& irradiance_of(Seen& seen);
     void note_edit();
     glm::vec3 factor_of(const ViewLamp& lamp) const;
-    Lumels lumels_of_solved() const;
+    Lumels shown_lumels() const;
     void draw_lit_balls(Image& light);
     void draw_lux_balls(Image& lux);
     MovableObject& picked_thing();
@@ -279,7 +287,10 @@ private:
     bool balls_of_solved_ = false;
     // Created on demand.
     std::optional<RayScene> rays_;
-    std::optional<Preview> preview_;  ///< shows drawn_
+    std::optional<Preview> preview_;             ///< shows drawn_
+    std::uint64_t baked_edits_ = 0;              ///< edits_ when the last bake began
+    std::optional<std::uint64_t> failed_edits_;  ///< edits_ of the last bake that failed
+    std::optional<BakeAside> bake_;              ///< that has not been taken
 };
 
 /// The session and its display settings as JSON.

@@ -73,10 +73,13 @@ void FrameCosts::add(double ms)
     all_ms += ms;
 }
 
-/// Discards solved light, as the scene has changed.
+/// Discards solved and baked light, as the scene has changed. Balls remain until it is at rest.
 void ViewSession::note_edit()
 {
     ++edits_;
+    if (bake_)
+        bake_->stop();
+    by_links_ = {.has_balls = by_links_.has_balls};
     solved_.reset();
     by_solver_ = {};
 }
@@ -111,23 +114,16 @@ const std::vector<glm::vec3>& ViewSession::irradiance_of(Seen& seen)
 }
 
 /// Moved objects can bury lumels, or uncover them.
-Lumels ViewSession::lumels_of_solved() const
+Lumels ViewSession::shown_lumels() const
 {
-    Lumels lumels = live_.lumels();
-    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
-        std::uint32_t& flags = lumels.lumels[i].flags;
-        flags = solved_->buried[i] ? flags | kLumelBuried : flags & ~kLumelBuried;
-    }
-    return lumels;
+    return shows_solved() ? with_buried(live_.lumels(), solved_->buried) : live_.shown_lumels();
 }
 
 const Image& ViewSession::map()
 {
     std::optional<Image>& map = seen().map;
-    if (!map && shows_solved())
-        map = finish_map(shown_, live_.atlas(), lumels_of_solved(), irradiance());
-    else if (!map)
-        map = finish_map(shown_, live_.atlas(), live_.lumels(), irradiance());
+    if (!map)
+        map = finish_map(shown_, live_.atlas(), shown_lumels(), irradiance());
     return *map;
 }
 
@@ -179,7 +175,7 @@ Image ViewSession::error_map()
     std::vector<glm::vec3> layer;
     for (const float percent : error_estimate())
         layer.emplace_back(percent);
-    return finish_maps(shown_, live_.atlas(), live_.lumels(), irradiance(), {&layer, 1})
+    return finish_maps(shown_, live_.atlas(), shown_lumels(), irradiance(), {&layer, 1})
         .layers.front();
 }
 

@@ -21,46 +21,44 @@ namespace {
 void assign(SolvedLight& light, const Lumels& own, const Lumels& solved,
             const std::vector<glm::vec3>& irradiance)
 {
-    const std::vector<std::uint32_t> at = lumels_by_side(own);
+    const std::vector<std::uint32_t> found = lumels_alike(solved, own);
     light.irradiance.assign(own.lumels.size(), glm::vec3(0.0f));
     light.buried.assign(own.lumels.size(), 0);
     for (std::size_t i = 0; i < irradiance.size(); ++i) {
-        const Lumel& lumel = solved.lumels[i];
-        const std::uint32_t found = at[place_by_side(lumel)];
-        if (found == kNoLumel)
+        if (found[i] == kNoLumel)
             continue;
-        light.irradiance[found] = irradiance[i];
-        light.buried[found] = (lumel.flags & kLumelBuried) != 0;
+        light.irradiance[found[i]] = irradiance[i];
+        light.buried[found[i]] = (solved.lumels[i].flags & kLumelBuried) != 0;
     }
 }
 
 }  // namespace
 
-/// Rereads materials for methods that support gloss, which links do not.
+/// Rereads materials for methods that support gloss, which links do not. Objects are where they are
+/// displayed, even if their light is not there yet.
 StandingScene ViewSession::standing(MaterialModel model) const
 {
-    Scene scene = model == shown_.model ? shown_ : read_gltf(shown_.path, model);
-    if (scene.instances.size() != shown_.instances.size() ||
-        scene.materials.size() != shown_.materials.size())
-        throw Error(ErrorKind::input, shown_.path, "has changed since it was opened");
-    std::vector<char> deleted(shown_.instances.size(), 0);
+    Scene scene = live_.standing().scene;
+    if (model != scene.model) {
+        Scene read = read_gltf(shown_.path, model);
+        if (read.instances.size() != scene.instances.size() ||
+            read.materials.size() != scene.materials.size())
+            throw Error(ErrorKind::input, shown_.path, "has changed since it was opened");
+        for (std::size_t m = 0; m < read.materials.size(); ++m) {
+            read.materials[m].base_color = scene.materials[m].base_color;
+            read.materials[m].emitted = scene.materials[m].emitted;
+        }
+        read.profiles = std::move(scene.profiles);
+        read.lights = std::move(scene.lights);
+        read.sky = std::move(scene.sky);
+        scene = std::move(read);
+    }
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        scene.instances[i].transform = shown_.instances[i].transform;
+    std::vector<char> deleted(scene.instances.size(), 0);
     for (const MovableObject& thing : things_)
         for (const std::uint32_t instance : thing.instances)
             deleted[instance] = thing.deleted;
-    for (std::size_t i = 0; i < scene.instances.size(); ++i)
-        scene.instances[i].transform = shown_.instances[i].transform;
-    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-        scene.materials[m].base_color = shown_.materials[m].base_color;
-        scene.materials[m].emitted = shown_.materials[m].emitted;
-    }
-    scene.profiles = shown_.profiles;
-    scene.lights = live_.scene().lights;
-    for (const ViewLamp& lamp : lamps_)
-        if (lamp.is_light)
-            scene.lights[lamp.index].color *= factor_of(lamp);
-    scene.sky = live_.scene().sky;
-    for (glm::vec3& radiance : scene.sky.radiance)
-        radiance *= sky_;
     return {without(scene, deleted), drawn_};
 }
 

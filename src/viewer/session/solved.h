@@ -10,16 +10,11 @@
 
 #include "gpu/device.h"
 #include "jobs/solve/bake_options.h"
+#include "links/live/baked_light.h"
 
 namespace lumel {
 
 class ViewSession;
-
-/// The current scene and its atlas, both without deleted objects.
-struct StandingScene {
-    Scene scene;
-    Atlas atlas;
-};
 
 /// Light at the lumels of a session, by a method of methods/methods.h.
 struct SolvedLight {

@@ -23,7 +23,9 @@ Json json_of(const SunPosition& sun)
 Json light_of(const ViewSession& session)
 {
     const LiveLinksState& state = session.light().state();
+    const BakedLight* const baked = session.light().baked();
     return {{"at_rest", state.at_rest},
+            {"baked_error_percent", baked ? Json(100.0 * baked->error) : Json(nullptr)},
             {"residual", state.residual},
             {"dark_residual", state.dark_residual},
             {"following", state.under_way},

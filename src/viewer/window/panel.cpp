@@ -237,12 +237,15 @@ void show_scale_of_mode(ViewSession& session)
 void show_light(ViewSession& session, UiState& desk)
 {
     const LiveLinksState& light = session.light().state();
+    const BakedLight* const baked = session.light().baked();
     desk.changed |= show_whose_light(session);
     auto budget = float(session.budget());
     if (ImGui::SliderFloat("light budget", &budget, kMinBudget, kMaxBudget, "%.0f ms"))
         session.set_budget(double(budget));
-    text(light.at_rest     ? "converged"
-         : light.under_way ? "updating after a move"
+    text(baked                 ? "baked, estimated error " + percent_text(baked->error)
+         : session.is_baking() ? "converged; baking"
+         : light.at_rest       ? "converged"
+         : light.under_way     ? "updating after a move"
          : light.weighing
              ? "converged; building filter"
              : fmt::format("residual {}, {} sweeps", percent_text(light.residual), light.sweeps));

@@ -61,6 +61,7 @@ public:
 private:
     void wait_for_light();
     void step();
+    void bake();
     void play();
     void make_picture();
     Image draw(double wait, bool read);
@@ -206,6 +207,14 @@ void ViewWindow::step()
     desk_.light_ms = session_->costs().last_ms;
     desk_.changed |= before != session_->light().state().all_sweeps ||
                      was_at_rest != session_->light().state().at_rest;
+}
+
+/// Bakes the scene at rest beside the frames.
+void ViewWindow::bake()
+{
+    const BakedLight* const before = session_->light().baked();
+    session_->bake(std::chrono::milliseconds(0));
+    desk_.changed |= before != session_->light().baked();
 }
 
 /// Retraces all links with other options; keeps edits.
@@ -410,6 +419,8 @@ ViewSummary ViewWindow::show()
             break;
         if (is_busy())
             step();
+        else
+            bake();
         make_picture();
         const Clock::time_point start = Clock::now();
         const bool busy = is_busy();
