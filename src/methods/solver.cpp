@@ -24,7 +24,7 @@ bool solve(Solver& solver, const SolverOptions& options,
         const auto met = [](double error, double target) {
             return target <= 0.0 || (error >= 0.0 && error <= target);
         };
-        if (!state.rough && (options.target_error > 0.0 || options.target_dark_error > 0.0) &&
+        if ((options.target_error > 0.0 || options.target_dark_error > 0.0) &&
             met(state.error, options.target_error) &&
             met(state.dark_error, options.target_dark_error))
             return true;

@@ -1,6 +1,7 @@
 #include "links/filter/filter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "atlas/lumels/sides.h"
@@ -15,9 +16,9 @@ constexpr int kUncertainReach = 2;
 /// Radius of the square over which nearness is averaged [lumels].
 constexpr int kNearnessReach = 2;
 
-/// Radius of the square of lumels that mean_nearby() compares, and maximum ratio of their nearness.
-constexpr int kNearbyReach = 2;
-constexpr float kLikeNearness = 1.5f;
+/// Kinds of lumels that the filter treats alike: classes of nearness, and of the lumels of a chart,
+/// each a factor of 2 and of 4 wide.
+constexpr int kNearnessClasses = 8, kSizeClasses = 8;
 
 /// Mean over the square around each lumel of the chart.
 std::vector<float> smoothed(const FilterChart& chart, const std::vector<float>& value, int reach)
@@ -188,31 +189,39 @@ Mean ChartFilter::indirect(const Solutions& found) const
     return mean;
 }
 
-std::vector<double> ChartFilter::mean_nearby(const std::vector<double>& value) const
+/// [N] Kind of each lumel.
+std::vector<std::uint32_t> ChartFilter::find_kinds() const
 {
-    const Lumels& lumels = work_.scene.lumels;
-    std::vector<double> result(value.size());
-    const auto mean_at = [&](std::size_t i) {
-        const Lumel& own = lumels.lumels[i];
-        const int x = int(own.texel) % lumels.width, y = int(own.texel) / lumels.width;
-        double sum = 0.0, count = 0.0;
-        for (int dy = -kNearbyReach; dy <= kNearbyReach; ++dy)
-            for (int dx = -kNearbyReach; dx <= kNearbyReach; ++dx) {
-                const std::uint32_t j =
-                    lit_lumel_at(lumels, by_side_, x + dx, y + dy, is_back(own) ? 1 : 0);
-                if (j == kNoLumel || j == i || lumels.lumels[j].chart != own.chart ||
-                    nearness_[j] > kLikeNearness * nearness_[i] ||
-                    nearness_[i] > kLikeNearness * nearness_[j])
-                    continue;
-                sum += value[j];
-                count += 1.0;
-            }
-        return count > 0.0 ? sum / count : value[i];
+    const auto& lumels = work_.lumels();
+    std::vector<std::uint32_t> of_chart;
+    for (const Lumel& lumel : lumels) {
+        of_chart.resize(std::max<std::size_t>(of_chart.size(), lumel.chart + 1), 0);
+        ++of_chart[lumel.chart];
+    }
+    const auto part = [](double octaves, int classes) {
+        return std::uint32_t(std::clamp(int(octaves), 0, classes - 1));
     };
-    parallel_for(value.size(), kLumelsPerTask, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            result[i] = mean_at(i);
-    });
+    std::vector<std::uint32_t> kinds(lumels.size());
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        const double away = 1.0 / std::max(double(nearness_[i]), 1e-9);  // [lumels]
+        kinds[i] = part(std::log2(away), kNearnessClasses) * kSizeClasses +
+                   part(0.5 * std::log2(double(of_chart[lumels[i].chart])), kSizeClasses);
+    }
+    return kinds;
+}
+
+std::vector<double> ChartFilter::variance_left(const std::vector<double>& raw,
+                                               const std::vector<double>& filtered) const
+{
+    const std::vector<std::uint32_t> kinds = find_kinds();
+    std::array<double, kNearnessClasses * kSizeClasses> before{}, left{};
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        before[kinds[i]] += raw[i];
+        left[kinds[i]] += filtered[i];
+    }
+    std::vector<double> result(kinds.size());
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+        result[i] = before[kinds[i]] > 0.0 ? left[kinds[i]] / before[kinds[i]] : 1.0;
     return result;
 }
 

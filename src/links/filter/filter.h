@@ -31,9 +31,10 @@ public:
 
     /// Filtered mean of the solutions.
     Mean indirect(const Solutions& found) const;
-    /// [N] Mean of a value over other lumels nearby on the same side of the chart whose rays go as
-    /// far; of a lumel alone, its own.
-    std::vector<double> mean_nearby(const std::vector<double>& value) const;
+    /// [N] Fraction of a solution's variance that filter leaves, on average over all lumels as near
+    /// to other geometry on charts as large. raw, filtered [N]: variances.
+    std::vector<double> variance_left(const std::vector<double>& raw,
+                                      const std::vector<double>& filtered) const;
     /// Filtered mean of two halves of direct light. Lumels far from any whose halves differ keep
     /// their light: it is exact.
     Mean direct(const Estimates& one, const Estimates& other) const;
@@ -50,6 +51,7 @@ private:
     std::uint8_t find_steps(std::size_t lumel, const std::vector<float>& nearest) const;
     bool may_step(std::size_t i, std::size_t j, float nearest) const;
     FilterChart chart_at(const Place& place) const;
+    std::vector<std::uint32_t> find_kinds() const;
     template <std::size_t Count, class Visit>
     void filter(const std::array<const Estimates*, Count>& found, const PyramidRule& rule,
                 const Visit& visit) const;

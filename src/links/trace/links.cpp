@@ -31,12 +31,9 @@ namespace lumel {
 namespace {
 
 /// Rays per lumel in each solution of the first round; powers of two stratify best.
-constexpr std::uint32_t kFirstRays = 4;
-/// Minimum and maximum rays of a later round, relative to the rays so far; minimum of the second.
-constexpr double kMinAdded = 0.4, kMaxAdded = 3.0, kMinSecond = 0.75;
-/// The first round, whose rays are uniform, is the last only below this fraction of the target: it
-/// leaves lumels in contact with other geometry noisy, which the filter cannot mend.
-constexpr double kEndsAtOnce = 0.5;
+constexpr std::uint32_t kFirstRays = 8;
+/// Minimum and maximum rays of a later round, relative to the rays so far.
+constexpr double kMinAdded = 0.4, kMaxAdded = 3.0;
 /// Rays allocated by deviation reduce the variance like 1 / kAdaptiveGain as many uniform ones.
 constexpr double kAdaptiveGain = 0.6;
 constexpr std::uint32_t kMaxLinks = 4096;
@@ -48,7 +45,7 @@ constexpr double kLinkBytes = sizeof(LinkEnd), kRowBytes = sizeof(std::uint16_t)
 /// Fraction of lumels with direct light per cell: maximum seen.
 constexpr double kVarying = 0.1;
 /// Fraction of rays allocated uniformly.
-constexpr double kEvenShare = 0.1;
+constexpr double kEvenShare = 0.25;
 /// Bisection steps for the rays that all lumels add.
 constexpr int kFillSteps = 24;
 /// Blocks of links per step, at the first round's number of rays.
@@ -355,8 +352,8 @@ double LinkRadiosity::more_rays() const
             const double left = square - std::min(one.now.direct, kMaxShare * square);
             ratio = std::max(ratio, one.now.rays / left);
         }
-        more = std::clamp(kAdaptiveGain * so_far * (ratio - 1.0),
-                          (round_ == 1 ? kMinSecond : kMinAdded) * so_far, kMaxAdded * so_far);
+        more = std::clamp(kAdaptiveGain * so_far * (ratio - 1.0), kMinAdded * so_far,
+                          kMaxAdded * so_far);
     }
     return std::min(more, double(kMaxLinks));
 }
@@ -388,25 +385,42 @@ std::vector<double> LinkRadiosity::weights() const
     return weight;
 }
 
+/// [N] Deviation that one ray of each lumel leaves in the filtered light, weighted. It is told by
+/// other lumels: rays allocated by a lumel's own error, or by light that the filter spread from it,
+/// would darken the result.
+std::vector<double> LinkRadiosity::deviation_of_ray(const std::vector<double>& sent) const
+{
+    const std::vector<double> weight = weights();
+    std::vector<double> raw(work_.order.size()), filtered(work_.order.size());
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+        const double scale = weight[i] * sent[i];
+        raw[i] = scale * spread(indirect(i, 0), indirect(i, 1), indirect(i, 2)) / 18.0;
+        filtered[i] = scale * double(mean_.noise[i]);
+    }
+    std::vector<double> deviation = deviation_nearby(raw, work_.order, 0.0);
+    if (filter_) {
+        const std::vector<double> left = filter_->variance_left(raw, filtered);
+        for (std::size_t i = 0; i < deviation.size(); ++i)
+            deviation[i] *= std::sqrt(left[i]);
+    }
+    return deviation;
+}
+
 /// Allocates rays. The sum of variances is minimal if all rays of a lumel are proportional to the
-/// deviation that one ray leaves after the filter; lumels are filled up to that. Some rays are
-/// uniform, since lumels whose rays have not found a light yet seem noiseless.
+/// deviation of one; lumels are filled up to that. Some rays are uniform, since lumels whose rays
+/// have not found a light yet seem noiseless.
 void LinkRadiosity::share_out_rays()
 {
     rays_.assign(work_.order.size(), std::uint16_t(std::lround(mean_rays_)));
     if (state_.shots == 0)
         return;
-    const std::vector<double> weight = weights();
-    std::vector<double> sent(work_.order.size(), 0.0), square(work_.order.size());
-    for (std::size_t i = 0; i < square.size(); ++i) {
+    std::vector<double> sent(work_.order.size(), 0.0);
+    for (std::size_t i = 0; i < sent.size(); ++i)
         for (const SourceTerm& source : sources_)
             for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
                 sent[i] += double(source.rays[p]) / double(kSolutions);
-        square[i] = weight[i] * double(mean_.noise[i]) * sent[i];
-    }
-    std::vector<double> deviation = filter() ? filter()->mean_nearby(square) : square;
-    for (double& one : deviation)
-        one = std::sqrt(one);
+    filter();
+    const std::vector<double> deviation = deviation_of_ray(sent);
     const double wanted = (1.0 - kEvenShare) * mean_rays_ * double(rays_.size());
     const auto added = [&](std::size_t i, double scale) {
         return work_.is_buried(i) ? 0.0 : std::max(scale * deviation[i] - sent[i], 0.0);
@@ -501,13 +515,9 @@ std::vector<LinkRadiosity::Wanted> LinkRadiosity::wanted() const
 void LinkRadiosity::go_on()
 {
     const std::vector<Wanted> all = wanted();
-    const auto reached_times = [&](double part) {
-        return std::all_of(all.begin(), all.end(), [&](const Wanted& one) {
-            return one.now.rays + one.now.direct <= part * part * one.error * one.error;
-        });
-    };
-    state_.rough = round_ == 1 && then_ == Then::add && !reached_times(kEndsAtOnce);
-    const bool reached = reached_times(1.0) && !state_.rough;
+    const bool reached = std::all_of(all.begin(), all.end(), [](const Wanted& one) {
+        return one.now.rays + one.now.direct <= one.error * one.error;
+    });
     const bool is_even = options_.even_rays > 0;
     if ((reached && !all.empty()) || is_even) {
         state_.ended = is_even;

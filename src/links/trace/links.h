@@ -112,6 +112,7 @@ private:
     bool has_known_round() const;
     StoredLinks::Round stored_round(std::size_t round, const LinkNumbers& stored) const;
     std::uint32_t interleaved() const;
+    std::vector<double> deviation_of_ray(const std::vector<double>& sent) const;
     void share_out_rays();
     void solve();
     void end_round();

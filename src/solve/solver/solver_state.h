@@ -13,7 +13,6 @@ struct SolverState {
     /// RMSE of lumels below a third of the mean irradiance, relative to their own mean; < 0:
     /// unknown.
     double dark_error = -1.0;
-    bool rough = false;  ///< the next steps lower the error, even if it is below the target
     bool full = false;   ///< memory is exhausted: further steps change nothing
     bool ended = false;  ///< nothing is left to do: further steps change nothing
     double begun = 0.0;  ///< progress to the first estimate, 0…1, if known
