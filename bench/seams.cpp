@@ -92,7 +92,8 @@ void show_seams(const Settings& settings)
     };
     fmt::print("device: {}\n", device.info().name);
     const Image left = picture(before), right = picture(after);
-    write_png(settings.seams, tone_map(side_by_side(left, right), choose_exposure(left)));
+    write_png(settings.seams,
+              tone_map(side_by_side(left, right), choose_exposure(left).value_or(1.0f)));
 }
 
 }  // namespace lumel::bench

@@ -78,8 +78,8 @@ std::vector<Image> write_steps(const ConvergenceSettings& settings, const Solver
                                const std::vector<Step>& steps)
 {
     std::filesystem::create_directories(settings.folder);
-    const float map_exposure = choose_exposure(steps.back().map);
-    const float picture_exposure = choose_exposure(steps.back().picture);
+    const float map_exposure = choose_exposure(steps.back().map).value_or(1.0f);
+    const float picture_exposure = choose_exposure(steps.back().picture).value_or(1.0f);
     std::vector<Image> pictures;
     for (const Step& step : steps) {
         const auto path = [&](const char* what) {

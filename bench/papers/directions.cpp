@@ -28,8 +28,6 @@ constexpr SunPosition kSun{.azimuth = 2.2, .elevation = 0.7};
 /// Of all pictures, so that they fit one sheet: width / height.
 constexpr float kAspect = 1.25f;
 constexpr std::size_t kPicturesInRow = 3;
-/// Of that which puts the bright end below white: skies make all of a scene bright.
-constexpr float kExposure = 0.5f;
 
 enum class Light { sky, own };
 
@@ -125,7 +123,7 @@ Image picture_of(const gpu::Device& device, const SolveScene& world, const Image
     View view = choose_view(world.scene, world.rays);
     view.aspect = kAspect;
     const Image picture = render_preview(device, world.scene, world.atlas, map, view, width);
-    return tone_map(picture, kExposure * choose_exposure(picture));
+    return tone_map(picture);
 }
 
 void add_row(Report& report, const Example& example, const SolveScene& world,

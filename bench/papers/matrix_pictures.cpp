@@ -177,7 +177,7 @@ void draw_beside_paths(const gpu::Device& device, const Settings& settings, std:
     const Image by_matrix =
         render_preview(device, world.scene, world.atlas, found.map, view, width);
     const Image by_paths = render_preview(device, world.scene, world.atlas, *truth, view, width);
-    const float exposure = choose_exposure(by_paths);
+    const float exposure = choose_exposure(by_paths).value_or(1.0f);
     const std::string path = folder + "/matrix-and-paths.png";
     write_png(path, contact_sheet({{tone_map(by_matrix, exposure), tone_map(by_paths, exposure)}}));
     report.picture(path, "Left by the matrix, right by path tracing");

@@ -76,10 +76,10 @@ def load_lit_scene(folder):
     for mesh in bpy.data.meshes:
         part_sides(mesh, 1e-4)  # [m]
 
-    # White paint that receives H lx sends H / π, and shows as exposure × H.
+    # White paint that receives H lx sends H / π, and shows as AgX of exposure × H.
     report = json.loads((folder / 'report.json').read_text())
     view = bpy.context.scene.view_settings
-    view.view_transform = 'Standard'
+    view.view_transform = 'AgX' if bpy.app.version >= (4, 0) else 'Standard'  # Standard clips highlights
     view.exposure = math.log2(math.pi * report['solution']['exposure'])
 
 

@@ -34,22 +34,10 @@ export async function loadLitScene(renderer, url) {
     loader.register((parser) => new LightmapPlugin(parser));
     const gltf = await loader.loadAsync(url);
     makeDiffuse(gltf); // to be left out where the scene has an environment map
-    // White paint that receives H lx sends H / π, and shows as exposure × H.
-    renderer.toneMapping = THREE.LinearToneMapping;
+    // White paint that receives H lx sends H / π, and shows as AgX of exposure × H.
+    renderer.toneMapping = THREE.AgXToneMapping;
     renderer.toneMappingExposure = Math.PI * gltf.asset.extras.lumel.exposure;
     return gltf;
-}
-
-/** Lumel's own tone curve in place of a linear one, for WebGLRenderer: bright light fades to white. */
-export function useToneCurve(renderer) {
-    const { ShaderChunk } = THREE;
-    ShaderChunk.tonemapping_pars_fragment = ShaderChunk.tonemapping_pars_fragment.replace(
-        'vec3 CustomToneMapping( vec3 color ) { return color; }',
-        `vec3 CustomToneMapping( vec3 color ) {
-            vec3 x = toneMappingExposure * color;
-            return mix( x, 1.0 - 0.4 * exp( ( 0.6 - x ) / 0.4 ), step( 0.6, x ) );
-        }`);
-    renderer.toneMapping = THREE.CustomToneMapping;
 }
 
 /** Binds lightmap.exr to a scene.glb whose MOZ_lightmap a tool has dropped, but not its extras. */

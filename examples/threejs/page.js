@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { bindLightmap, loadLitScene, useToneCurve } from './lightmap.js';
+import { bindLightmap, loadLitScene } from './lightmap.js';
 
 const texelNames = new Map([
     [THREE.HalfFloatType, 'half'],
@@ -53,7 +53,6 @@ async function draw() {
     document.body.append(renderer.domElement);
     const gltf = asked.has('baked') ? await loadAsItIs('/scene.glb')
                                     : await loadLitScene(renderer, '/scene.glb');
-    if (asked.has('curve')) useToneCurve(renderer);
     if (asked.has('map')) await bindLightmap(gltf, '/map.exr');
 
     const camera = cameraFor(gltf);

@@ -1,9 +1,9 @@
 // Draws a baked scene in three.js by a browser without a window:
 //     node render.mjs scene.glb picture.png [--modules FOLDER] [--size WIDTHxHEIGHT]
-//                     [--map lightmap.exr] [--baked] [--curve]
+//                     [--map lightmap.exr] [--baked]
 //                     [--compare OTHER.png] [--browser PROGRAM]
 // --modules: where npm put three; --map: bind this one; --baked: a core glTF that is shown as it is;
-// --curve: Lumel's tone curve; --compare: also print the mean difference from this picture, of 255.
+// --compare: also print the mean difference from this picture, of 255.
 // Exits with 0, or with 1 and a sentence.
 
 import { readFile, writeFile } from 'node:fs/promises';
@@ -20,7 +20,6 @@ const { values: options, positionals: [scene, picture] } = parseArgs({
         size: { type: 'string', default: '1280x720' },
         map: { type: 'string' },
         baked: { type: 'boolean' },
-        curve: { type: 'boolean' },
         compare: { type: 'string' },
         browser: { type: 'string', default: 'chromium' },
     },
@@ -50,7 +49,7 @@ async function fileAt(path) {
 
 const [width, height] = options.size.split('x');
 const asked = new URLSearchParams({ width, height });
-for (const flag of ['map', 'baked', 'curve', 'compare'])
+for (const flag of ['map', 'baked', 'compare'])
     if (options[flag]) asked.set(flag, '1');
 try {
     const { body, found } = await visit(options.browser, asked, fileAt, '/picture');

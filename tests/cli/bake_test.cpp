@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "png_picture.h"
 #include "program.h"
 
 namespace lumel::test {
@@ -71,6 +72,61 @@ TEST(Bake, ReportAndSceneStateTheExposureOfThePictures)
     EXPECT_NEAR(report["solution"]["exposure"], exposure, 1e-6 * exposure);
     EXPECT_FALSE(scene.contains("images"));
     EXPECT_EQ(report["settings"]["lightmap-format"], "none");
+}
+
+Picture preview_of(const std::string& scene, const std::vector<std::string>& options)
+{
+    const Workplace place;
+    std::vector<std::string> bake = {"bake",
+                                     own_scene(scene),
+                                     place.path("out"),
+                                     "--size",
+                                     "128",
+                                     "--preview-width",
+                                     "256",
+                                     "--error",
+                                     "10"};
+    bake.insert(bake.end(), options.begin(), options.end());
+    const Outcome outcome = run_lumel(bake);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return read_picture(place.path("out/preview.png"));
+}
+
+/// Share of pixels with all channels in [first, last].
+double share(const Picture& picture, int first, int last)
+{
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
+        count += std::all_of(&picture.rgb[i], &picture.rgb[i] + 3,
+                             [&](int code) { return code >= first && code <= last; });
+    return 3.0 * double(count) / double(picture.rgb.size());
+}
+
+TEST(Bake, ThePreviewOfASunlitSceneIsNeitherWhiteNorBlack)
+{
+    for (const char* scene : {"two-rooms-window.gltf", "room.gltf"}) {
+        const Picture preview = preview_of(scene, {"--sun", "265,35"});
+        EXPECT_LT(share(preview, 254, 255), 0.01) << scene;
+        EXPECT_LT(share(preview, 0, 8), 0.05) << scene;
+        EXPECT_NEAR(preview.mean(), 128.0, 30.0) << scene;
+    }
+}
+
+TEST(Bake, ThePreviewHasSmoothEdgesAtLampsToo)
+{
+    // At the slanting sides of the lamp of the Cornell box about half of the pixels are between the
+    // white of the lamp and the ceiling.
+    const Picture preview = preview_of("cornell-box.gltf", {});
+    const auto blue = [&](int x, int y) { return preview.at(x, y)[2]; };
+    int beside = 0, between = 0;
+    for (int y = 0; y < preview.height; ++y)
+        for (int x = 1; x + 1 < preview.width; ++x)
+            if (blue(x, y) < 250 && std::max(blue(x - 1, y), blue(x + 1, y)) >= 250) {
+                ++beside;
+                between += blue(x, y) > 150;
+            }
+    EXPECT_GT(beside, 10);
+    EXPECT_GT(between, beside / 4);
 }
 
 TEST(Bake, SaysNothingWhenQuiet)

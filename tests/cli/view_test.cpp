@@ -34,9 +34,10 @@ TEST(View, ALampThatIsPutOutLeavesDarknessInTheSameFrame)
     EXPECT_EQ(played.picture("dark.png").most(), 0);
     EXPECT_EQ(played.state("dark.json")["light"]["links_traced_again"], 0);
     const Colour red = played.picture("red.png").at(60, 100);
-    EXPECT_GT(red[0], 30);
-    EXPECT_EQ(red[1], 0);
-    EXPECT_EQ(red[2], 0);
+    // The tone curve mixes in a little grey.
+    EXPECT_GT(red[0], 60);
+    EXPECT_LT(red[1], red[0] / 2);
+    EXPECT_LT(red[2], red[0] / 2);
 }
 
 TEST(View, ADoorThatIsOpenedLightsTheRoomBehind)
@@ -355,8 +356,8 @@ TEST(View, PaintAndLumelsAreShown)
                         "wait\npick 60,30\npaint 0,0,1\nwait\npicture blue.png\n"
                         "mode lumels\npicture lumels.png\n");
     const Colour blue = played.picture("blue.png").at(60, 40);
-    EXPECT_EQ(blue[0], 0);
-    EXPECT_GT(blue[2], 20);
+    EXPECT_GT(blue[2], blue[0] + 30);
+    EXPECT_GT(blue[2], blue[1] + 30);
     EXPECT_GT(played.picture("lumels.png").mean(), 30.0);
 }
 

@@ -2,8 +2,8 @@
 #define LUMEL_BASE_CORE_SHARED_H
 
 // Included first by every *.shared.h file, for C++ and GLSL. Those files declare plain structs and
-// constants with the same names, order and offsets in both (scalar block layout: every member at
-// its natural C offset, a vec3 is 12 bytes, no padding).
+// constants, and functions of them, with the same names, order and offsets in both (scalar block
+// layout: every member at its natural C offset, a vec3 is 12 bytes, no padding).
 
 // clang-format off
 #ifdef __cplusplus
@@ -13,9 +13,11 @@
 
 #define LUMEL_SHARED_BEGIN namespace lumel { using uint = std::uint32_t; \
                                              using glm::uvec2; using glm::vec2; using glm::vec3; \
-                                             using glm::vec4; using glm::mat4;
+                                             using glm::vec4; using glm::mat3; \
+                                             using glm::mat4;
 #define LUMEL_SHARED_END   }
 #define LUMEL_CONST        inline constexpr
+#define LUMEL_FUNCTION     inline
 
 #else
 
@@ -23,6 +25,7 @@
 #define LUMEL_SHARED_BEGIN
 #define LUMEL_SHARED_END
 #define LUMEL_CONST        const
+#define LUMEL_FUNCTION
 
 #endif
 // clang-format on

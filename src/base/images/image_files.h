@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,22 +55,16 @@ enum class FloatTexel {
 /// 0…65504 (half) or 0…65408. 3 or 4 channels; the fourth is not written. Throws Error{output}.
 std::vector<unsigned char> encode_ktx2(const Image& image, FloatTexel texel);
 
-/// Tone-mapped copy for display: exposure from the map's bright end, filmic shoulder, sRGB.
-/// `exposure` 0: chosen from the covered texels. Alpha is unchanged.
-Image tone_map(const Image& linear, float exposure = 0.0f);
+/// Factor that exposes linear light for tone_curve(): the log-average of covered, lit pixels
+/// becomes mid grey or, in bright images, up to one stop more. Lamps that cover less than 5 % do
+/// not count. Empty if nothing is lit.
+std::optional<float> choose_exposure(const Image& linear);
 
-/// Luminance of the image's bright end, in its own unit: the 98th percentile of covered, lit
-/// texels, at most 8 times their median, which excludes lamps. 0 if nothing is lit.
-float bright_end(const Image& linear);
+/// Copy for display: exposure, AgX tone curve, sRGB. Alpha is unchanged.
+Image tone_map(const Image& linear, float exposure);
 
-/// Exposure that tone_map chooses: it maps the bright end to just below white. 1 if nothing is lit.
-float choose_exposure(const Image& linear);
-
-/// tone_map's curve for one exposed value: display code 0…1.
-float display_from_linear(float exposed);
-
-/// The exact sRGB curve (IEC 61966-2-1): linear 0…1 to code 0…1.
-float srgb_from_linear(float linear);
+/// Tone-maps with the exposure of choose_exposure(), or 1 if nothing is lit.
+Image tone_map(const Image& linear);
 
 /// Versions of the libraries that write EXR, PNG and KTX2: "3.1.5".
 std::string openexr_version();

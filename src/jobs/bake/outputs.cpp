@@ -76,7 +76,7 @@ float write_map(const OutputFolder& folder, const std::string& name, const Image
     if (!directional.empty())
         metadata.merge(directional_metadata());
     if (exposure <= 0.0f)
-        exposure = choose_exposure(map);
+        exposure = choose_exposure(map).value_or(1.0f);
     const Pages& pages = prepared.atlas.pages;
     for (int page = 0; page < pages.count; ++page) {
         const std::string file = folder.path(page_name(pages, page, name));
@@ -106,12 +106,20 @@ void outdate_other_pages(OutputFolder& folder, const Pages& pages)
 
 namespace {
 
-/// The preview [cd/m²]; empty, with a warning, if it cannot be rendered.
-std::optional<Image> draw_preview(const gpu::Device& device, const SolveScene& prepared,
-                                  const Image& map, const View& view, int width)
+/// The preview and its exposure [m²/cd], empty if it is black.
+struct DrawnPreview {
+    Preview preview;
+    std::optional<float> exposure;
+};
+
+/// Empty, with a warning, if the preview cannot be rendered.
+std::optional<DrawnPreview> draw_preview(const gpu::Device& device, const SolveScene& prepared,
+                                         const Image& map, const View& view, int width)
 {
     try {
-        return render_preview(device, prepared.scene, prepared.atlas, map, view, width);
+        Preview preview(device, prepared.scene, prepared.atlas);
+        const auto exposure = choose_exposure(preview.draw(prepared.scene, map, view, width));
+        return DrawnPreview{std::move(preview), exposure};
     } catch (const Error& error) {
         log_warning(std::string("no ") + kPreview + ": " + error.what());
         return std::nullopt;
@@ -120,10 +128,11 @@ std::optional<Image> draw_preview(const gpu::Device& device, const SolveScene& p
 
 /// Exposure of all images of the bake [1/lx]: a white surface with irradiance H sends H / π, and is
 /// shown as exposure × H. Fits the preview, or the surfaces' light without one.
-float exposure_of(const std::optional<Image>& picture, const Image& radiance)
+float exposure_of(const std::optional<DrawnPreview>& drawn, const Image& radiance)
 {
-    const bool seen = picture && bright_end(*picture) > 0.0f;
-    return choose_exposure(seen ? *picture : radiance) * std::numbers::inv_pi_v<float>;
+    const std::optional<float> of_radiance =
+        drawn && drawn->exposure ? drawn->exposure : choose_exposure(radiance);
+    return of_radiance.value_or(1.0f) * std::numbers::inv_pi_v<float>;
 }
 
 /// The texture of scene-baked.glb [cd/m²]: as dense as the scene's own, within the limit.
@@ -151,19 +160,20 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
     const Image& map = maps.light;
     const Image radiance = finish_map(prepared.scene, prepared.atlas, prepared.lumels,
                                       radiance_of(prepared.lumels, irradiance));
-    std::optional<Image> picture;
-    std::optional<View> view;
-    if (device && options.preview_width > 0) {
+    const bool draws = device && options.preview_width > 0;
+    if (draws)
         stages.begin("preview");
-        view = choose_view(prepared.scene, prepared.rays);
-        picture = draw_preview(*device, prepared, map, *view, options.preview_width);
-    }
+    const auto view =
+        draws ? std::optional(choose_view(prepared.scene, prepared.rays)) : std::nullopt;
+    auto drawn =
+        draws ? draw_preview(*device, prepared, map, *view, options.preview_width) : std::nullopt;
     stages.begin("writing");
-    const WrittenLight written{.exposure = exposure_of(picture, radiance),
-                               .view = picture ? view : std::nullopt};
+    const WrittenLight written{.exposure = exposure_of(drawn, radiance),
+                               .view = drawn ? view : std::nullopt};
     const float exposure_of_radiance = std::numbers::pi_v<float> * written.exposure;
-    if (picture)
-        write_png(folder.path(kPreview), tone_map(*picture, exposure_of_radiance));
+    if (drawn)
+        write_png(folder.path(kPreview), drawn->preview.tone_mapped(exposure_of_radiance));
+    drawn.reset();
     write_map(folder, kLightmapName, map, options.half, prepared, stages, written.exposure,
               maps.layers);
     write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open);

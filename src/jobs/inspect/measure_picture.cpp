@@ -46,8 +46,7 @@ Image preview_picture(const gpu::Device& device, const SolveScene& prepared,
         for (int x = 0; x < seen.width; ++x) {
             const float* pixel = seen.at(x, y);
             // White materials send H / π.
-            const double arriving =
-                std::numbers::pi * luminance({pixel[0], pixel[1], pixel[2]}) / double(pixel[3]);
+            const double arriving = std::numbers::pi * luminance({pixel[0], pixel[1], pixel[2]});
             lux.at(x, y)[0] = pixel[3] < kCoveredTexel ? kNothing : float(arriving);
         }
     return false_colour(lux, scale_for(lux.values));

@@ -95,11 +95,12 @@ public:
     {
         const Image map =
             finish_map(shown_, light_->atlas(), light_->lumels(), light_->irradiance());
-        Image image = render_preview(*device_, shown_, atlas(), map, view(), options_.width);
+        Preview preview(*device_, shown_, atlas());
+        const Image& light = preview.draw(shown_, map, view(), options_.width);
         // One exposure for all frames avoids flicker.
-        if (exposure_ <= 0.0f && bright_end(image) > 0.0f)
-            exposure_ = choose_exposure(image);
-        return tone_map(image, exposure_);
+        if (exposure_ <= 0.0f)
+            exposure_ = choose_exposure(light).value_or(0.0f);
+        return preview.tone_mapped(exposure_ > 0.0f ? exposure_ : 1.0f);
     }
 
     const Atlas& atlas() const { return light_->atlas(); }

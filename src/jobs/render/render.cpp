@@ -162,7 +162,7 @@ std::optional<float> write_picture(const std::string& path, const Image& image,
                    {"software", "lumel " + lumel_version()}});
     } else {
         const Image shown = unmultiplied(image);
-        exposure = given ? *given : choose_exposure(shown);
+        exposure = given ? *given : choose_exposure(shown).value_or(1.0f);
         write_png(file.path(), tone_map(shown, *exposure));
     }
     file.commit();

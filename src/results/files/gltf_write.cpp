@@ -17,8 +17,8 @@
 namespace lumel {
 namespace {
 
-// PNG clips where exposure × irradiance exceeds this: a surface of albedo 0.25 is just below white
-// there. A larger range would reduce the precision of everything else.
+// PNG clips where exposure × irradiance exceeds this: a white surface has display code 0.94 there.
+// A larger range would reduce the precision of everything else.
 constexpr float kLargestExposed = 4.0f;
 // Half floats and shared exponents keep all digits down to 2^-14: with at most this multiple of the
 // 99.9th percentile as the unit, a ten-thousandth of the percentile is off by 0.3 % at most.
@@ -40,8 +40,8 @@ float lightmap_scale(const Image& map, std::optional<float> exposure)
     const auto high = lit.begin() + std::ptrdiff_t(kHigh * double(lit.size() - 1));
     std::nth_element(lit.begin(), high, lit.end());
     float scale = brightest;
-    if (const float exposed = exposure.value_or(choose_exposure(map)); exposed > 0.0f)
-        scale = std::min(scale, kLargestExposed / exposed);
+    if (const auto exposed = exposure ? exposure : choose_exposure(map); exposed && *exposed > 0.0f)
+        scale = std::min(scale, kLargestExposed / *exposed);
     if (*high > 0.0f)
         scale = std::min(scale, kLargestOverHigh * *high);
     return std::max(scale, brightest / kLargestFloat);

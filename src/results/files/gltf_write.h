@@ -28,7 +28,7 @@ struct SceneLighting {
 /// material; the extension is listed in extensionsUsed only, so that a viewer without it shows the
 /// scene unlit. Texels hold irradiance / intensity. The texture has two images: a KTX2 without
 /// clipping, bound by KHR_texture_basisu, and for loaders without it an 8-bit linear PNG. intensity
-/// [lx] is the brightest covered texel, but at most the irradiance that the exposure shows white;
+/// [lx] is the brightest covered texel, but at most what the exposure shows nearly white;
 /// the PNG clips there. As in three.js, the radiance that a surface reflects is
 ///     albedo / π × texel × intensity.
 /// extras.lumel of each baked material also names the map beside the file: tools that drop the

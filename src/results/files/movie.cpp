@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Common players require even sides and this pixel format.
-constexpr const char* kEvenSides = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
+/// Pixels without a surface are black. Common players require even sides and this pixel format.
+constexpr const char* kFilters = "premultiply=inplace=1,pad=ceil(iw/2)*2:ceil(ih/2)*2";
 constexpr const char* kPixels = "yuv420p";
 constexpr int kNotStarted = 127;  // shells' exit code
 
@@ -64,10 +64,9 @@ std::string find_ffmpeg()
 bool make_film(const std::string& ffmpeg, const std::string& folder, const std::string& pictures,
                double frames_per_second, const std::string& film)
 {
-    const int code =
-        run_silently(folder, {ffmpeg, "-nostdin", "-y", "-framerate",
-                              fmt::format("{}", frames_per_second), "-start_number", "1", "-i",
-                              pictures, "-vf", kEvenSides, "-pix_fmt", kPixels, film});
+    const int code = run_silently(
+        folder, {ffmpeg, "-nostdin", "-y", "-framerate", fmt::format("{}", frames_per_second),
+                 "-start_number", "1", "-i", pictures, "-vf", kFilters, "-pix_fmt", kPixels, film});
     std::error_code ignored;
     if (code != 0)
         fs::remove(fs::path(folder) / film, ignored);

@@ -208,7 +208,7 @@ struct Preview::Parts {
     void draw(const gpu::Raster<Shaders>& raster, const typename Shaders::Bindings& given,
               const PreviewParams& params, const gpu::Range& range);
     void record(const Scene& scene, const Drawn& what);
-    void take_picture(const glm::ivec2& size);
+    void average(const glm::uvec2& size, float exposure, Image& image);
 
     TextureSet textures;
     gpu::Sampler linear, nearest;
@@ -327,16 +327,18 @@ void Preview::Parts::record(const Scene& scene, const Drawn& what)
         ++params;
     }
     commands.end_pass();
-    commands.dispatch(shrink, {.picture = {canvas->color, nearest}, .pixels = canvas->pixels},
-                      {what.size.x, what.size.y}, canvas->pixels.size());
 }
 
-void Preview::Parts::take_picture(const glm::ivec2& size)
+/// Averages the samples on the canvas. exposure: see ShrinkParams. Runs the commands.
+void Preview::Parts::average(const glm::uvec2& size, float exposure, Image& image)
 {
-    if (picture.width != size.x || picture.height != size.y)
-        picture = Image(size.x, size.y, 4);
-    const glm::vec4* const pixels = canvas->pixels.mapped();
-    std::memcpy(picture.values.data(), pixels, canvas->pixels.size() * sizeof(glm::vec4));
+    commands.dispatch(shrink, {.picture = {canvas->color, nearest}, .pixels = canvas->pixels},
+                      {size.x, size.y, exposure}, canvas->pixels.size());
+    commands.run();
+    if (image.width != int(size.x) || image.height != int(size.y))
+        image = Image(int(size.x), int(size.y), 4);
+    std::memcpy(image.values.data(), canvas->pixels.mapped(),
+                canvas->pixels.size() * sizeof(glm::vec4));
 }
 
 Preview::Preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas)
@@ -344,6 +346,8 @@ Preview::Preview(const gpu::Device& device, const Scene& scene, const Atlas& atl
       parts_(std::make_unique<Parts>(device, scene, atlas))
 {
 }
+
+Preview::Preview(Preview&&) noexcept = default;
 
 Preview::~Preview() = default;
 
@@ -371,10 +375,16 @@ const Image& Preview::draw(const Scene& scene, const Image& map, const View& vie
     }
     parts.drawn.reset();
     parts.record(scene, what);
-    parts.commands.run();
-    parts.take_picture(size);
+    parts.average(what.size, 0.0f, parts.picture);
     parts.drawn = std::move(what);
     return parts.picture;
+}
+
+Image Preview::tone_mapped(float exposure)
+{
+    Image display;
+    parts_->average(parts_->drawn->size, exposure, display);
+    return display;
 }
 
 Image Preview::release()

@@ -31,6 +31,7 @@ glm::ivec2 preview_size(const gpu::Device& device, const View& view, int width);
 class Preview {
 public:
     Preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas);
+    Preview(Preview&&) noexcept;
     ~Preview();
 
     /// Replaces the surfaces of the scene.
@@ -38,11 +39,14 @@ public:
 
     /// Radiance from `view` [cd/m²], RGBA (alpha 0: no surface), `width` pixels wide (smaller if
     /// the device cannot render it). Samples the lightmap bilinearly, material textures with
-    /// mipmaps. map: finished [lx], RGBA. A pixel is the mean of 2 × 2. shows: selects other
-    /// content. scene: as before, except transforms of instances, and colours and emission of
-    /// materials. Valid until the next call.
+    /// mipmaps. map: finished [lx], RGBA. A pixel is the mean of those of 2 × 2 samples that are on
+    /// surfaces; alpha is their share. shows: selects other content. scene: as before, except
+    /// transforms of instances, and colours and emission of materials. Valid until the next call.
     const Image& draw(const Scene& scene, const Image& map, const View& view, int width,
                       PreviewShows shows = PreviewShows::light);
+    /// Display codes of the last image: tone-maps every sample before averaging, for smooth edges.
+    /// exposure > 0. Requires draw().
+    Image tone_mapped(float exposure);
     /// Moves the last picture out, so that there are not two of it.
     Image release();
 

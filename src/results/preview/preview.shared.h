@@ -7,7 +7,7 @@ LUMEL_CONST uint kBackIsBlack = 0u;    ///< back faces show no light
 LUMEL_CONST uint kBackIsAlike = 1u;    ///< back faces show the light of the front
 LUMEL_CONST uint kBackIsAnother = 2u;  ///< a separate face shows it
 
-/// A pixel of the image is the mean of kSupersample × kSupersample samples.
+/// A pixel of the image is the mean of the covered ones of kSupersample × kSupersample samples.
 LUMEL_CONST uint kSupersample = 2u;
 
 LUMEL_CONST uint kShowsLight = 0u;  ///< light from surfaces, L = ρ H / π + L_e
@@ -26,6 +26,7 @@ struct PreviewParams {
 /// Push constants of preview.shrink.comp.
 struct ShrinkParams {
     uint width, height;  ///< size of the image [pixels]
+    float exposure;      ///< of display codes; 0: radiance
 };
 
 LUMEL_SHARED_END

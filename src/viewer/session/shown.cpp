@@ -54,11 +54,8 @@ Image luminances(const Image& image)
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const float* const pixel = image.at(x, y);
-            // A pixel at a border averages surface and nothing: divides by alpha.
             *one.at(x, y) =
-                pixel[3] > 0.0f
-                    ? float(luminance({pixel[0], pixel[1], pixel[2]}) / double(pixel[3]))
-                    : -1.0f;
+                pixel[3] > 0.0f ? float(luminance({pixel[0], pixel[1], pixel[2]})) : -1.0f;
         }
     return one;
 }
@@ -142,7 +139,7 @@ const Image& ViewSession::render(const Image& map, PreviewShows shows)
 float ViewSession::exposure()
 {
     const float of_light =
-        exposure_ ? *exposure_ : choose_exposure(render(map(), PreviewShows::light));
+        exposure_ ? *exposure_ : choose_exposure(render(map(), PreviewShows::light)).value_or(1.0f);
     return of_light * std::exp2(stops_);
 }
 
@@ -200,9 +197,10 @@ void ViewSession::set_automatic_exposure(bool automatic)
 Image ViewSession::lit_picture()
 {
     const Image& light = render(map(), PreviewShows::light);
-    const float factor = (exposure_ ? *exposure_ : choose_exposure(light)) * std::exp2(stops_);
+    const float factor =
+        (exposure_ ? *exposure_ : choose_exposure(light).value_or(1.0f)) * std::exp2(stops_);
     if (mode_ != ViewMode::lit || !(probe_spacing_ > 0.0))
-        return tone_map(light, factor);
+        return preview_->tone_mapped(factor);
     Image with_balls = light;
     draw_lit_balls(with_balls);
     return tone_map(with_balls, factor);

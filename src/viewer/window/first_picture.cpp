@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/core/parallel.h"
-#include "base/images/image_files.h"
+#include "base/images/tone_curve.shared.h"
 #include "rays/paths/surfaces.h"
 
 namespace lumel {
@@ -37,8 +37,8 @@ Image first_picture(const Scene& scene, const RayScene& rays, const View& view,
             for (int x = 0; x < size.x; ++x) {
                 const glm::vec2 place = (glm::vec2(x, y) + 0.5f) / glm::vec2(size);
                 const glm::vec3 colour = colour_along(ray_through(view, place), rays, surfaces);
-                for (int c = 0; c < 3; ++c)
-                    image.at(x, y)[c] = srgb_from_linear(std::clamp(colour[c], 0.0f, 1.0f));
+                const glm::vec3 codes = srgb_from_linear(glm::clamp(colour, 0.0f, 1.0f));
+                std::copy_n(&codes[0], 3, image.at(x, y));
             }
     });
     return image;

@@ -147,9 +147,13 @@ bool Screen::holds(int key) const
 
 void Screen::take(const Image& picture)
 {
+    // Black where there is no surface.
     std::vector<GLubyte> bytes(picture.values.size());
-    std::transform(picture.values.begin(), picture.values.end(), bytes.begin(),
-                   [](float code) { return GLubyte(std::clamp(code, 0.0f, 1.0f) * kByte + 0.5f); });
+    const std::size_t stride = std::size_t(picture.channels);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        const float covered = stride == 4 ? picture.values[i / stride * stride + 3] : 1.0f;
+        bytes[i] = GLubyte(std::clamp(covered * picture.values[i], 0.0f, 1.0f) * kByte + 0.5f);
+    }
     const GLenum format = picture.channels == 4 ? GL_RGBA : GL_RGB;
     gl_->bind_texture(GL_TEXTURE_2D, texture_);
     gl_->pixel_store(GL_UNPACK_ALIGNMENT, 1);

@@ -1,7 +1,6 @@
 // The scene in WebGL: lit, with white materials or in false colours; two bakes side by side.
 
 import * as THREE from 'three';
-import { useToneCurve } from '../../../../examples/threejs/lightmap.js';
 
 // Replacements for a fragment's surface colour × light.
 const shownInstead = {
@@ -32,7 +31,7 @@ export class Stage {
     constructor(canvas) {
         this.canvas = canvas;
         this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
-        useToneCurve(this.renderer);
+        this.renderer.toneMapping = THREE.AgXToneMapping;
         this.renderer.setScissorTest(true);
         this.caster = new THREE.Raycaster();
         this.split = 0.5; // end of the first bake, relative to the width
@@ -92,7 +91,7 @@ export class Stage {
     /** Draws the bakes, each in its part of the width, with the exposure of the first. */
     drawNow() {
         const { clientWidth: width, clientHeight: height } = this.canvas;
-        // A white material with irradiance H sends H / π, and shows as exposure × H.
+        // A white material with irradiance H sends H / π, and shows as AgX of exposure × H.
         this.renderer.toneMappingExposure = Math.PI * this.bakes[0].exposure * 2 ** this.stops;
         const seam = this.bakes.length > 1 ? Math.round(this.split * width) : width;
         const parts = [[0, seam], [seam, width - seam]];
