@@ -258,17 +258,80 @@ std::vector<typename FitLevel<Count>::Fit> fit_all(const FitLevel<Count>& level,
     return fits;
 }
 
-/// Of two cells side by side, is there a pair of lumels across the border, and are all open?
-struct Border {
-    bool any = false, open = true;
+/// Averages the four cells of a cell.
+template <std::size_t Count>
+void average(const FitLevel<Count>& fine, int x, int y, FitLevel<Count>& level)
+{
+    const std::size_t cell = level.at(x, y);
+    for (int dy = 0; dy < 2; ++dy)
+        for (int dx = 0; dx < 2; ++dx) {
+            if (!fine.contains(2 * x + dx, 2 * y + dy))
+                continue;
+            const std::size_t from = fine.at(2 * x + dx, 2 * y + dy);
+            const float count = fine.count[from];
+            level.count[cell] += count;
+            level.centroid[cell] += count * 0.5f * (fine.centroid[from] + glm::vec2(dx, dy) - 0.5f);
+            level.normal[cell] += count * fine.normal[from];
+            add_scaled<Count>(level.light[cell], count, fine.light[from]);
+        }
+    const float count = std::max(level.count[cell], 1.0f);
+    level.centroid[cell] /= count;
+    for (float& channel : level.light[cell])
+        channel /= count;
+    const float length = glm::length(level.normal[cell]);
+    if (length > 0.0f)
+        level.normal[cell] /= length;
+}
 
-    void add(bool both, bool step)
+/// Of neighbouring cells: is there a pair across their border, and are the steps of all open?
+template <std::size_t Count>
+class Border {
+public:
+    explicit Border(const FitLevel<Count>& fine) : fine_(&fine) {}
+
+    void cross(int x, int y, int dx, int dy)
     {
-        any = any || both;
-        open = open && (!both || step);
+        const auto is = [&](int at_x, int at_y) {
+            return fine_->contains(at_x, at_y) && fine_->counts(fine_->at(at_x, at_y));
+        };
+        if (is(x, y) && is(x + dx, y + dy)) {
+            any_ = true;
+            all_ = all_ && fine_->is_open(x, y, dx, dy);
+        }
     }
-    bool is_open() const { return any && open; }
+    bool is_shut() const { return !all_; }
+    bool is_open() const { return any_ && all_; }
+
+private:
+    const FitLevel<Count>* fine_;
+    bool any_ = false, all_ = true;
 };
+
+/// Finds the steps of a cell, and whether geometry splits it.
+template <std::size_t Count>
+void find_borders(const FitLevel<Count>& fine, int x, int y, FitLevel<Count>& level)
+{
+    const int left = 2 * x, top = 2 * y;
+    Border<Count> within(fine), right(fine), below(fine), down_right(fine), down_left(fine);
+    for (int n = 0; n < 2; ++n) {
+        within.cross(left, top + n, 1, 0);
+        within.cross(left + n, top, 0, 1);
+        right.cross(left + 1, top + n, 1, 0);
+        below.cross(left + n, top + 1, 0, 1);
+    }
+    down_right.cross(left + 1, top + 1, 1, 1);
+    down_left.cross(left, top + 1, -1, 1);
+    const std::size_t cell = level.at(x, y);
+    level.is_split[cell] = within.is_shut() ? 1 : 0;
+    for (int n = 0; n < 4; ++n)
+        if (fine.contains(left + n % 2, top + n / 2) &&
+            fine.is_split[fine.at(left + n % 2, top + n / 2)])
+            level.is_split[cell] = 1;
+    unsigned steps = 0;
+    for (unsigned s = 0; const Border<Count>* border : {&right, &below, &down_right, &down_left})
+        steps |= (border->is_open() ? 1u : 0u) << s++;
+    level.steps[cell] = std::uint8_t(steps);
+}
 
 }  // namespace
 
@@ -322,64 +385,14 @@ FitLevel<Count> coarser_level(const FitLevel<Count>& fine)
     level.normal.assign(cells, glm::vec3(0.0f));
     level.steps.assign(cells, 0);
     level.is_split.assign(cells, 0);
-    level.light.resize(cells);
-    const auto is = [&](int x, int y) { return fine.contains(x, y) && fine.counts(fine.at(x, y)); };
-    const auto cross = [&](Border& border, int x, int y, int dx, int dy) {
-        const bool both = is(x, y) && is(x + dx, y + dy);
-        border.add(both, both && fine.is_open(x, y, dx, dy));
-    };
-    const auto fill = [&](int x, int y) {
-        const std::size_t cell = level.at(x, y);
-        const int left = 2 * x, top = 2 * y;
-        FitLight<Count> sum{};
-        for (int dy = 0; dy < 2; ++dy)
-            for (int dx = 0; dx < 2; ++dx) {
-                if (!fine.contains(left + dx, top + dy))
-                    continue;
-                const std::size_t from = fine.at(left + dx, top + dy);
-                if (fine.is_split[from])
-                    level.is_split[cell] = 1;
-                const float count = fine.count[from];
-                level.count[cell] += count;
-                const glm::vec2 from_centre =
-                    0.5f * (fine.centroid[from] + glm::vec2(dx, dy) - 0.5f);
-                level.centroid[cell] += count * from_centre;
-                level.normal[cell] += count * fine.normal[from];
-                add_scaled<Count>(sum, count, fine.light[from]);
-            }
-        Border within, right, below;
-        cross(within, left, top, 1, 0);
-        cross(within, left, top + 1, 1, 0);
-        cross(within, left, top, 0, 1);
-        cross(within, left + 1, top, 0, 1);
-        for (int n = 0; n < 2; ++n) {
-            cross(right, left + 1, top + n, 1, 0);
-            cross(below, left + n, top + 1, 0, 1);
-        }
-        Border down_right, down_left;
-        cross(down_right, left + 1, top + 1, 1, 1);
-        cross(down_left, left, top + 1, -1, 1);
-        if (!within.open)
-            level.is_split[cell] = 1;
-        level.steps[cell] =
-            std::uint8_t((right.is_open() ? 1u : 0u) | (below.is_open() ? 2u : 0u) |
-                         (down_right.is_open() ? 4u : 0u) | (down_left.is_open() ? 8u : 0u));
-        const float count = level.count[cell];
-        if (count > 0.0f) {
-            level.centroid[cell] /= count;
-            for (float& channel : sum)
-                channel /= count;
-        }
-        const float length = glm::length(level.normal[cell]);
-        if (length > 0.0f)
-            level.normal[cell] /= length;
-        level.light[cell] = sum;
-    };
+    level.light.assign(cells, FitLight<Count>{});
     parallel_for(std::size_t(level.height), kCellsPerTask / std::size_t(level.width) + 1,
                  [&](std::size_t first, std::size_t last) {
                      for (int y = int(first); y < int(last); ++y)
-                         for (int x = 0; x < level.width; ++x)
-                             fill(x, y);
+                         for (int x = 0; x < level.width; ++x) {
+                             average(fine, x, y, level);
+                             find_borders(fine, x, y, level);
+                         }
                  });
     return level;
 }
