@@ -52,7 +52,7 @@ TEST(Links, RefuseARoomThatAbsorbsNothing)
 TEST(Links, GoOnFromTheStateAfterAnyStepToTheSameLight)
 {
     const SolveScene world(support::scene_path("cornell-box"), {.size = 192});
-    const SolverOptions options = links(0.02);
+    const SolverOptions options = links(0.01);  // in two rounds
     const support::Resident resident(world.scene, world.rays, world.lumels, options, &world.atlas);
     const auto make = [&] {
         return make_solver({.device = resident.device,

@@ -24,6 +24,7 @@ public:
     const Scene& scene() const override { return live_.scene(); }
     const Atlas& atlas() const override { return live_.atlas(); }
     const Lumels& lumels() const override { return live_.lumels(); }
+    Lumels shown_lumels() const override { return live_.shown_lumels(); }
     const gpu::StageTimes& times() const override { return times_; }
 
 private:

@@ -94,7 +94,7 @@ public:
     Image picture()
     {
         const Image map =
-            finish_map(shown_, light_->atlas(), light_->lumels(), light_->irradiance());
+            finish_map(shown_, light_->atlas(), light_->shown_lumels(), light_->irradiance());
         Preview preview(*device_, shown_, atlas());
         const Image& light = preview.draw(shown_, map, view(), options_.width);
         // One exposure for all frames avoids flicker.

@@ -128,7 +128,7 @@ std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool
     const std::uint64_t maps =
         (2 + layers) * sizes.texels * kOfTexel + (1 + layers) * sizes.lumels * sizeof(glm::vec3);
     const std::uint64_t solving =
-        uses_links(options) ? LinkRadiosity::sweep_bytes(sizes.lumels, sizes.texels) : 0;
+        uses_links(options) ? LinkRadiosity::sweep_bytes(sizes.lumels) : 0;
     const std::uint64_t drawing =
         options.preview_width > 0
             ? sizes.preview.host + (shared ? sizes.preview.device + kCompilerBytes : 0)

@@ -328,9 +328,17 @@ void DirectEstimator::keep(std::uint32_t i, const Found& found, Block& block)
 bool DirectEstimator::fits() const
 {
     const std::size_t count = work_.order.size();
+    const auto is_lumel = [&](std::uint32_t i) { return i < count; };
+    const auto are_lumels = [&](const Block& block) {
+        return block.cells.size() == block.lumel.size() &&
+               std::ranges::all_of(block.lumel, is_lumel);
+    };
+    const auto has_cells = [&](std::uint32_t v) { return v == kSame || v < cells_.size(); };
     return half_[0].size() == count && half_[1].size() == count && taken_.size() == count &&
            more_.size() == count && seen_.size() == count && uncertain_.size() == count &&
-           varying_.size() == count && done_ <= blocks_.size();
+           varying_.size() == count && done_ <= blocks_.size() &&
+           std::ranges::all_of(many_, is_lumel) && std::ranges::all_of(varying_, has_cells) &&
+           std::ranges::all_of(blocks_, are_lumels);
 }
 
 std::uint64_t DirectEstimator::bytes(std::size_t lumels, std::size_t varying)
@@ -345,6 +353,8 @@ bool DirectEstimator::step()
     const std::vector<std::uint32_t>& list = first_pass_ ? work_.order : many_;
     if (first_pass_ && work_.sources.count() == 0)
         return false;
+    if (!first_pass_ && done_ == blocks_.size())
+        return false;  // no pass has begun since the last
     const std::size_t last_block = std::min(done_ + kBlocksPerPass, blocks_.size());
     const std::size_t grain = work_.caster().batch() / (kBlock * 2 * kFewRays);
     parallel_for(last_block - done_, grain, [&](std::size_t first, std::size_t last) {

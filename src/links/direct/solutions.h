@@ -9,8 +9,8 @@
 
 namespace lumel {
 
-/// Solutions by links that share no random numbers except those of direct light: two for the error
-/// estimate, and a third for filter weights.
+/// Solutions by links that share no random numbers except those of direct light. Three pairs tell
+/// noise from light.
 inline constexpr std::uint32_t kSolutions = 3;
 
 /// Estimates of one quantity at the lumels [N].

@@ -39,6 +39,17 @@ std::vector<float> smoothed(const FilterChart& chart, const std::vector<float>& 
     return result;
 }
 
+/// True if all estimates agree at all lumels of the chart: nothing is to be filtered.
+template <std::size_t Count>
+bool is_known(const FilterChart& chart, const std::array<const Estimates*, Count>& found)
+{
+    return std::ranges::all_of(chart.lumel, [&](std::uint32_t i) {
+        return i == kNoLumel || std::ranges::all_of(found, [&](const Estimates* one) {
+                   return (*one)[i] == (*found[0])[i];
+               });
+    });
+}
+
 template <std::size_t Count>
 glm::vec3 estimate_of(const FitLight<Count>& light, std::size_t k)
 {
@@ -66,10 +77,14 @@ ChartFilter::ChartFilter(const LinkWork& work, const SubLumels& parts,
 
 std::uint64_t ChartFilter::bytes(std::size_t lumels, std::size_t texels)
 {
-    constexpr std::size_t kOfMean = sizeof(glm::vec3) + 2 * sizeof(float);
-    constexpr std::size_t kOfChart = 6 * sizeof(FitLight<kSolutions>);
-    return 2 * texels * sizeof(std::uint32_t) +
-           lumels * (sizeof(std::uint8_t) + sizeof(float) + kOfMean + kOfChart);
+    return 2 * texels * sizeof(std::uint32_t) + lumels * (sizeof(std::uint8_t) + sizeof(float));
+}
+
+/// As if all charts were filtered at once: light of the level, finer, fitted and filtered, and what
+/// else cells have.
+std::uint64_t ChartFilter::working_bytes(std::size_t lumels)
+{
+    return lumels * (4 * sizeof(FitLight<kSolutions>) + 18 * sizeof(float));
 }
 
 std::vector<ChartFilter::Place> ChartFilter::find_places() const
@@ -159,6 +174,8 @@ void ChartFilter::filter(const std::array<const Estimates*, Count>& found, const
     parallel_for(places_.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t n = first; n < last; ++n) {
             const FilterChart chart = chart_at(places_[n]);
+            if (is_known(chart, found))
+                continue;
             visit(chart, filter_chart<Count>(chart, found, rule));
         }
     });
@@ -199,7 +216,7 @@ std::vector<std::uint32_t> ChartFilter::find_kinds() const
         ++of_chart[lumel.chart];
     }
     const auto part = [](double octaves, int classes) {
-        return std::uint32_t(std::clamp(int(octaves), 0, classes - 1));
+        return std::uint32_t(std::clamp(octaves, 0.0, double(classes - 1)));
     };
     std::vector<std::uint32_t> kinds(lumels.size());
     for (std::size_t i = 0; i < kinds.size(); ++i) {

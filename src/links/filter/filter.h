@@ -26,8 +26,9 @@ public:
     /// The work must outlive this.
     ChartFilter(const LinkWork& work, const SubLumels& parts, const RayDistances& distances);
 
-    /// Memory of this and of a filter at work [bytes].
+    /// Memory of this, and in addition while it filters [bytes].
     static std::uint64_t bytes(std::size_t lumels, std::size_t texels);
+    static std::uint64_t working_bytes(std::size_t lumels);
 
     /// Filtered mean of the solutions.
     Mean indirect(const Solutions& found) const;

@@ -189,7 +189,7 @@ std::vector<std::uint8_t> distance_to_uneven(const FitLevel<Count>& level)
     const auto is_even = [&](int x, int y) {
         const std::size_t cell = level.at(x, y);
         if (x == 0 || y == 0 || x + 1 == level.width || y + 1 == level.height ||
-            level.count[cell] != full || level.steps[cell] != 0xFu)
+            level.count[cell] != full || level.is_split[cell] || level.steps[cell] != 0xFu)
             return false;
         return glm::dot(level.normal[cell], level.normal[level.at(x + 1, y)]) >= kCosEven &&
                glm::dot(level.normal[cell], level.normal[level.at(x, y + 1)]) >= kCosEven;
@@ -220,14 +220,18 @@ void add_scaled(FitLight<Count>& sum, float factor, const FitLight<Count>& light
         sum[c] += factor * light[c];
 }
 
-/// Fits of all cells; of the first `rows` terms.
+/// Fits of all cells [cells][rows]: their first `rows` terms.
 template <std::size_t Count>
-std::vector<typename FitLevel<Count>::Fit> fit_all(const FitLevel<Count>& level, std::size_t rows)
+std::vector<FitLight<Count>> fit_all(const FitLevel<Count>& level, std::size_t rows)
 {
     const std::vector<std::uint8_t> distance = distance_to_uneven(level);
-    const FitWindow even = even_window(level.width);
-    const FitKernel of_even = kernel_of(even, rows);
-    std::vector<typename FitLevel<Count>::Fit> fits(level.count.size());
+    FitWindow even;
+    FitKernel of_even;
+    if (*std::max_element(distance.begin(), distance.end()) > kFitReach) {
+        even = even_window(level.width);
+        of_even = kernel_of(even, rows);
+    }
+    std::vector<FitLight<Count>> fits(level.count.size() * rows);
     const auto fit = [&](int x, int y) {
         const std::size_t cell = level.at(x, y);
         if (!level.counts(cell))
@@ -246,7 +250,7 @@ std::vector<typename FitLevel<Count>::Fit> fit_all(const FitLevel<Count>& level,
                 add_scaled<Count>(
                     sum, kernel.of_term[r][t],
                     level.light[std::size_t(std::ptrdiff_t(cell) + window.taps[t].to)]);
-            fits[cell][r] = sum;
+            fits[cell * rows + r] = sum;
         }
     };
     parallel_for(std::size_t(level.height), kCellsPerTask / std::size_t(level.width) + 1,
@@ -403,15 +407,15 @@ std::vector<FitLight<Count>> fitted_light(const FilterChart& chart, const FitLev
 {
     // A lumel of the finest level is at the centre of its cell, where all other terms are 0.
     const std::size_t rows = level.side == 1 ? 1 : kFitTerms;
-    const std::vector<typename FitLevel<Count>::Fit> fits = fit_all(level, rows);
+    std::vector<FitLight<Count>> fits = fit_all(level, rows);
+    if (level.side == 1)
+        return fits;
     std::vector<FitLight<Count>> result(finer.size());
     const auto blend = [&](int x, int y) {
         const int own_x = x / level.side, own_y = y / level.side;
         const std::size_t own = level.at(own_x, own_y);
         if (!level.counts(own))
             return finer[chart.at(x, y)];
-        if (level.side == 1)
-            return fits[own][0];
         const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / float(level.side) - 0.5f;
         const glm::vec2 base = glm::floor(at), across = at - base;
         FitLight<Count> sum{};
@@ -424,7 +428,7 @@ std::vector<FitLight<Count>> fitted_light(const FilterChart& chart, const FitLev
                                  (n / 2 == 1 ? across.y : 1.0f - across.y);
             const Terms terms = terms_at(at - glm::vec2(cx, cy));
             for (std::size_t r = 0; r < kFitTerms; ++r)
-                add_scaled<Count>(sum, weight * terms[r], fits[level.at(cx, cy)][r]);
+                add_scaled<Count>(sum, weight * terms[r], fits[level.at(cx, cy) * rows + r]);
             weights += weight;
         }
         for (float& channel : sum)

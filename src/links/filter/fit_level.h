@@ -18,9 +18,9 @@
 
 namespace lumel {
 
-/// Three channels of each of `Count` independent estimates, padded to whole vectors of 4 floats.
+/// Three channels of each of `Count` independent estimates.
 template <std::size_t Count>
-using FitLight = std::array<float, (3 * Count + 3) / 4 * 4>;
+using FitLight = std::array<float, 3 * Count>;
 
 /// Terms 1, u, v, u², u v, v² of a fit.
 inline constexpr std::size_t kFitTerms = 6;
@@ -32,7 +32,6 @@ inline constexpr float kFitSpread = 1.5f;
 template <std::size_t Count>
 struct FitLevel {
     using Light = FitLight<Count>;
-    using Fit = std::array<Light, kFitTerms>;
 
     int side = 1;  ///< of a cell [lumels]
     int width = 0, height = 0;

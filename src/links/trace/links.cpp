@@ -5,9 +5,9 @@
 // once (links/trace/sweeps.cpp). The cost grows linearly with the number of lumels.
 //
 // Three solutions have their own links, and direct light has two halves. The result is the mean of
-// the solutions, filtered over charts. The filter weights for two solutions A and B come from the
-// third, so that the error of the filtered A', B' can be estimated: their variance is in A' - B',
-// and the squared filter bias is the mean of (A' - A)(B' - B). See links/filter/filter.h,
+// the solutions, filtered over charts. The noise of different solutions is independent: the
+// variance of filtered A', B' is in A' - B', and the squared filter bias is the mean of (A' - A)(B'
+// - B). All have the same gains, from averages over many lumels. See links/filter/pyramid.h,
 // links/filter/mean.h.
 //
 // Where light changes within a lumel, direct light is stored for a grid of cells, and geometry cuts
@@ -136,18 +136,20 @@ std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, 
     constexpr std::size_t kOfOrder = sizeof(std::uint32_t), kOfGroups = sizeof(std::uint32_t);
     const std::size_t of_parts =
         kSolutions * (kOfSources + sizeof(glm::vec3)) + kOfGroups + sizeof(glm::vec3);
-    const std::size_t of_lumels = sizeof(WorldLumel) + kOfOrder + kOfMean + sizeof(std::uint16_t);
+    const std::size_t of_lumels =
+        sizeof(WorldLumel) + kOfOrder + 2 * kOfMean + sizeof(std::uint16_t);
     const auto varying = std::size_t(kVarying * double(lumels));
     return lumels * (of_lumels + of_parts) + pieces * (sizeof(Piece) + sizeof(Facet)) +
            Cells::bytes(lumels) + SubLumels::bytes(lumels, lumels) +
-           DirectEstimator::bytes(lumels, varying) + NearLumels::bytes(texels);
+           DirectEstimator::bytes(lumels, varying) + NearLumels::bytes(texels) +
+           ChartFilter::bytes(lumels, texels);
 }
 
-std::uint64_t LinkRadiosity::sweep_bytes(std::size_t lumels, std::size_t texels)
+std::uint64_t LinkRadiosity::sweep_bytes(std::size_t lumels)
 {
     const std::uint64_t sweep = lumels * 3 * sizeof(glm::vec4);
     const std::uint64_t mean = lumels * (kSolutions * sizeof(glm::vec3) + sizeof(float)) +
-                               ChartFilter::bytes(lumels, texels);
+                               ChartFilter::working_bytes(lumels);
     return std::max(sweep, mean);
 }
 
@@ -234,10 +236,12 @@ void LinkRadiosity::check_sizes() const
                 is(mean_.light.size(), lumels) && is(mean_.noise.size(), lumels) &&
                 is(mean_.wrong.size(), lumels) && traced_ <= tracer_->blocks() &&
                 means_.size() == round_ && (state_.shots > 0) == !mean_.light.empty() &&
-                (!is_tracing || (mean_rays_ > 0.0 && rays_.size() == lumels));
+                (!is_tracing || (mean_rays_ > 0.0 && rays_.size() == lumels)) &&
+                (stage_ != Stage::solve || traced_ == tracer_->blocks());
     for (std::size_t k = 0; k < kSolutions; ++k)
         fits = fits && links_[k]->rounds.size() == round_ + (is_tracing ? 1 : 0) &&
                links_[k]->fits(work_.order, *parts_, *numbers_, traced) &&
+               received_[k].size() >= (mean_.light.empty() ? 0 : parts) &&
                is(received_[k].size(), parts) &&
                sources_[k].rays.size() == (mean_.light.empty() ? 0 : parts);
     if (!fits)
@@ -421,7 +425,15 @@ void LinkRadiosity::share_out_rays()
                 sent[i] += double(source.rays[p]) / double(kSolutions);
     filter();
     const std::vector<double> deviation = deviation_of_ray(sent);
-    const double wanted = (1.0 - kEvenShare) * mean_rays_ * double(rays_.size());
+    double lit = 0.0, widest = 0.0;
+    for (std::size_t i = 0; i < deviation.size(); ++i)
+        if (!work_.is_buried(i)) {
+            lit += 1.0;
+            widest = std::max(widest, deviation[i]);
+        }
+    if (!(widest > 0.0))
+        return;
+    const double wanted = (1.0 - kEvenShare) * mean_rays_ * lit;
     const auto added = [&](std::size_t i, double scale) {
         return work_.is_buried(i) ? 0.0 : std::max(scale * deviation[i] - sent[i], 0.0);
     };
@@ -431,9 +443,6 @@ void LinkRadiosity::share_out_rays()
             sum += added(i, scale);
         return sum;
     };
-    const double widest = *std::max_element(deviation.begin(), deviation.end());
-    if (!(widest > 0.0))
-        return;
     double low = 0.0, high = 1.0 / widest;
     while (all_added(high) < wanted)
         high *= 2.0;
@@ -632,8 +641,9 @@ void LinkRadiosity::estimate()
         }
         Errors errors() const { return {relative(rays.sum()), relative(direct.sum())}; }
     };
-    direct_mean_ = filter() ? filter()->direct(direct_->half(0), direct_->half(1))
-                            : plain_mean(direct_->half(0), direct_->half(1));
+    direct_mean_ = filter() && parts_wanted_ != Parts::indirect
+                       ? filter()->direct(direct_->half(0), direct_->half(1))
+                       : plain_mean(direct_->half(0), direct_->half(1));
     const auto add = [&](Sums& sums, std::size_t i, double light) {
         if (parts_wanted_ != Parts::indirect)
             sums.direct.add(direct_mean_, i);

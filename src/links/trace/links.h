@@ -48,7 +48,7 @@ public:
     static std::uint64_t host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels);
 
     /// Temporary host memory of a sweep or of the filter, whichever is larger [bytes].
-    static std::uint64_t sweep_bytes(std::size_t lumels, std::size_t texels);
+    static std::uint64_t sweep_bytes(std::size_t lumels);
 
     /// `shots` are rays per lumel.
     void step() override;

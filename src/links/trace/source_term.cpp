@@ -1,7 +1,6 @@
 #include "links/trace/source_term.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/core/parallel.h"
 
@@ -10,6 +9,10 @@ namespace {
 
 /// Lumels, and blocks of links, per task.
 constexpr std::size_t kSourcesPerTask = 4096, kSourceBlocksPerTask = 4;
+
+/// Minimum distance of a hit [sides of the lumel]: lumels that touch other geometry there are in
+/// contact anyway.
+constexpr float kLeastDistance = 1e-3f;
 
 /// Calls visit(row, lumel) for all rows, in parallel; rows of one lumel one after another.
 template <class Visit>
@@ -113,7 +116,7 @@ RayDistances find_distances(const LinkWork& work, const SubLumels& parts,
                                 kNearSides * std::max(lumel.size, hit.size)));
             }
             for (const NearLink& near : row.near)
-                add(i, std::max(near.distance, std::numeric_limits<float>::min()));
+                add(i, std::max(near.distance, kLeastDistance * lumel.size));
         });
     for (std::size_t i = 0; i < count; ++i)
         result.inverse[i] /= float(std::max(rays[i], 1u));

@@ -21,6 +21,7 @@ void LinkRadiosity::relight()
         filter_.reset();
     find_light();
     received_ = {};
+    sources_ = {};
     mean_ = {};
     direct_mean_ = {};
     round_ = 0;

@@ -109,25 +109,31 @@ TEST(Pyramid, EdgesOfDirectLightStay)
             EXPECT_NEAR(mean[chart.at(x, y)], edge(x, y), 0.3f);
 }
 
-TEST(Pyramid, NothingPassesAWall)
+class Wall : public testing::TestWithParam<int> {};
+
+// Within and between the cells of each level.
+INSTANTIATE_TEST_SUITE_P(At, Wall, testing::Range(41, 49));
+
+TEST_P(Wall, LetsNothingPass)
 {
+    const int wall = GetParam();
     // Noise so strong that the gains cannot tell the sides apart; the same on both.
     Solutions found = solutions_of(even, 10.0f);
     FilterChart chart = flat_chart();
     const std::vector<float> before = filtered(chart, found);
     for (int y = 0; y < kSide; ++y) {
-        chart.steps[chart.at(47, y)] &= std::uint8_t(~0b0101u);
-        chart.steps[chart.at(48, y)] &= std::uint8_t(~0b1000u);
+        chart.steps[chart.at(wall - 1, y)] &= std::uint8_t(~0b0101u);
+        chart.steps[chart.at(wall, y)] &= std::uint8_t(~0b1000u);
     }
     const std::vector<float> walled = filtered(chart, found);
     for (Estimates& of : found)
         for (int y = 0; y < kSide; ++y)
-            for (int x = 0; x < 48; ++x)
+            for (int x = 0; x < wall; ++x)
                 of[chart.at(x, y)] += 1000.0f;
     const std::vector<float> lit = filtered(chart, found);
     double passed = 0.0, changed = 0.0;
     for (int y = 0; y < kSide; ++y)
-        for (int x = 48; x < kSide; ++x) {
+        for (int x = wall; x < kSide; ++x) {
             passed = std::max(passed, double(std::abs(lit[chart.at(x, y)])));
             changed += double(std::abs(before[chart.at(x, y)] - walled[chart.at(x, y)]));
         }
