@@ -106,33 +106,31 @@ void outdate_other_pages(OutputFolder& folder, const Pages& pages)
 
 namespace {
 
-/// The preview and its exposure [m²/cd], empty if it is black.
+/// Exposure of light without a preview [m²/cd].
+float exposure_of(const Image& radiance)
+{
+    return choose_exposure(radiance).value_or(1.0f);
+}
+
 struct DrawnPreview {
-    Preview preview;
-    std::optional<float> exposure;
+    Image picture;   ///< tone-mapped
+    float exposure;  ///< [m²/cd]
 };
 
 /// Empty, with a warning, if the preview cannot be rendered.
 std::optional<DrawnPreview> draw_preview(const gpu::Device& device, const SolveScene& prepared,
-                                         const Image& map, const View& view, int width)
+                                         const Image& map, const Image& radiance, const View& view,
+                                         int width)
 {
     try {
         Preview preview(device, prepared.scene, prepared.atlas);
-        const auto exposure = choose_exposure(preview.draw(prepared.scene, map, view, width));
-        return DrawnPreview{std::move(preview), exposure};
+        const auto seen = choose_exposure(preview.draw(prepared.scene, map, view, width));
+        const float exposure = seen ? *seen : exposure_of(radiance);
+        return DrawnPreview{preview.tone_mapped(exposure), exposure};
     } catch (const Error& error) {
         log_warning(std::string("no ") + kPreview + ": " + error.what());
         return std::nullopt;
     }
-}
-
-/// Exposure of all images of the bake [1/lx]: a white surface with irradiance H sends H / π, and is
-/// shown as exposure × H. Fits the preview, or the surfaces' light without one.
-float exposure_of(const std::optional<DrawnPreview>& drawn, const Image& radiance)
-{
-    const std::optional<float> of_radiance =
-        drawn && drawn->exposure ? drawn->exposure : choose_exposure(radiance);
-    return of_radiance.value_or(1.0f) * std::numbers::inv_pi_v<float>;
 }
 
 /// The texture of scene-baked.glb [cd/m²]: as dense as the scene's own, within the limit.
@@ -165,14 +163,16 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
         stages.begin("preview");
     const auto view =
         draws ? std::optional(choose_view(prepared.scene, prepared.rays)) : std::nullopt;
-    auto drawn =
-        draws ? draw_preview(*device, prepared, map, *view, options.preview_width) : std::nullopt;
+    auto drawn = draws
+                     ? draw_preview(*device, prepared, map, radiance, *view, options.preview_width)
+                     : std::nullopt;
     stages.begin("writing");
-    const WrittenLight written{.exposure = exposure_of(drawn, radiance),
+    // All images have one exposure; a white surface of irradiance H sends H / π.
+    const float exposure_of_radiance = drawn ? drawn->exposure : exposure_of(radiance);
+    const WrittenLight written{.exposure = exposure_of_radiance * std::numbers::inv_pi_v<float>,
                                .view = drawn ? view : std::nullopt};
-    const float exposure_of_radiance = std::numbers::pi_v<float> * written.exposure;
     if (drawn)
-        write_png(folder.path(kPreview), drawn->preview.tone_mapped(exposure_of_radiance));
+        write_png(folder.path(kPreview), drawn->picture);
     drawn.reset();
     write_map(folder, kLightmapName, map, options.half, prepared, stages, written.exposure,
               maps.layers);

@@ -19,7 +19,7 @@ namespace {
 /// software device, including 20 MiB for validation layers [bytes].
 constexpr std::uint64_t kProgramBytes = 98u << 20;
 /// Memory of Mesa's compiler for the preview's shaders, on a CPU device [bytes].
-constexpr std::uint64_t kCompilerBytes = 24u << 20;
+constexpr std::uint64_t kCompilerBytes = 46u << 20;
 /// Memory per lumel of the matrix method, as measured [bytes].
 constexpr std::uint64_t kMatrixLumelBytes = 380;
 /// Memory per triangle for BVHs and charts, as measured [bytes].

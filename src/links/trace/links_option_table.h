@@ -16,8 +16,8 @@ inline constexpr OptionInfo kLinksOptions[] = {
     seed_option(member<&LinksOptions::seed>),
     sampling_option(member<&LinksOptions::rule>),
     {.name = "filter",
-     .help = "Average lumels with similar neighbours; without it the result is noisier, but exact "
-             "in expectation",
+     .help = "Smooth light over charts where it is noise; without it the result is noisier, but "
+             "exact in expectation",
      .words = kFilterSwitch,
      .member = member<&LinksOptions::filter>},
     {.name = "rays",
