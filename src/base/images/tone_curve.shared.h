@@ -19,6 +19,8 @@ LUMEL_SHARED_BEGIN
 LUMEL_CONST float kDarkestStop = -12.47393f;  ///< e_0 [log2]
 LUMEL_CONST float kWhiteStop = 4.026069f;     ///< e_1 [log2]
 
+// GLSL has no references. NOLINTBEGIN(performance-unnecessary-value-param)
+
 /// sRGB curve: linear 0…1 to code 0…1. Fitted by roots, within 0.02 of 255.
 LUMEL_FUNCTION vec3 srgb_from_linear(vec3 linear)
 {
@@ -52,6 +54,8 @@ LUMEL_FUNCTION vec3 tone_curve(vec3 exposed)
         u;  // u^2.2, fitted within 0.1 of 255 in the code
     return srgb_from_linear(clamp(to_rec709 * powered, 0.0f, 1.0f));
 }
+
+// NOLINTEND(performance-unnecessary-value-param)
 
 LUMEL_SHARED_END
 #endif

@@ -137,7 +137,7 @@ FitWindow window_at(const FitLevel<Count>& level, int x, int y)
     FitWindow window;
     std::array<char, kMaxTaps> reached{};
     const auto place = [](int dx, int dy) {
-        return std::size_t((dy + kFitReach) * kFitSide + dx + kFitReach);
+        return std::size_t(dy + kFitReach) * kFitSide + std::size_t(dx + kFitReach);
     };
     const std::size_t centre = level.at(x, y);
     const auto add = [&](int dx, int dy) {

@@ -38,7 +38,7 @@ struct Moments {
 template <std::size_t Count>
 Moments moments_of(const FitLight<Count>& detail, const FitLight<Count>& fitted, float bound)
 {
-    constexpr float kOfPairs = float(Count * (Count - 1) / 2);
+    constexpr float kOfPairs = 0.5f * float(Count * (Count - 1));
     Moments moments{.count = 1.0f};
     float light = 0.0f;
     for (std::size_t c = 0; c < 3; ++c) {
