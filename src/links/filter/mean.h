@@ -2,6 +2,7 @@
 // Mean of several estimates, and its error.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -19,18 +20,20 @@ struct Mean {
 double spread(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
 /// Sum of squared errors over some lumels. Estimates of the squared bias are signed; their sum is
-/// not negative.
+/// not negative, and its standard error is added, so that few rays are not trusted too early.
 class SquaredError {
 public:
     void add(const Mean& mean, std::size_t lumel)
     {
         noise_ += double(mean.noise[lumel]);
-        wrong_ += double(mean.wrong[lumel]);
+        const auto wrong = double(mean.wrong[lumel]);
+        wrong_ += wrong;
+        squares_ += wrong * wrong;
     }
-    double sum() const { return noise_ + std::max(wrong_, 0.0); }
+    double sum() const { return noise_ + std::max(wrong_, 0.0) + std::sqrt(squares_); }
 
 private:
-    double noise_ = 0.0, wrong_ = 0.0;
+    double noise_ = 0.0, wrong_ = 0.0, squares_ = 0.0;
 };
 
 /// Of independent solutions, and of two independent halves.
