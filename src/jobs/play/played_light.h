@@ -25,7 +25,7 @@ public:
     virtual const Scene& scene() const = 0;
     virtual const Atlas& atlas() const = 0;
     virtual const Lumels& lumels() const = 0;
-    /// Those of irradiance(): lumels under moved things may be buried.
+    /// The lumels of irradiance(), of which moved objects may bury some.
     virtual Lumels shown_lumels() const { return lumels(); }
     virtual const gpu::StageTimes& times() const = 0;
 };

@@ -162,7 +162,6 @@ FilterChart ChartFilter::chart_at(const Place& place) const
             chart.normal[t] = work_.world[i].normal;
             chart.nearness[t] = nearness_[i];
         }
-    chart.nearness = smoothed(chart, chart.nearness, kNearnessReach);
     return chart;
 }
 
@@ -173,9 +172,11 @@ void ChartFilter::filter(const std::array<const Estimates*, Count>& found, const
 {
     parallel_for(places_.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t n = first; n < last; ++n) {
-            const FilterChart chart = chart_at(places_[n]);
+            FilterChart chart = chart_at(places_[n]);
             if (is_known(chart, found))
                 continue;
+            if (rule.is_bounded)
+                chart.nearness = smoothed(chart, chart.nearness, kNearnessReach);
             visit(chart, filter_chart<Count>(chart, found, rule));
         }
     });

@@ -16,10 +16,9 @@ namespace lumel {
 
 /// How the pyramid joins its levels.
 struct PyramidRule {
-    /// [levels] From the finest on: the noise of an estimate of the signal that is not taken for
-    /// signal, in deviations² of the noise.
+    /// [levels] Multiple of the noise that is subtracted from the signal, from the finest level on.
     std::span<const float> caution;
-    /// Details finer than the distances that rays go allow are taken for noise [WH92].
+    /// Bounds the signal by the harmonic mean distance of ray hits [WH92].
     bool is_bounded;
 };
 
@@ -31,8 +30,8 @@ PyramidRule rule_of_direct();
 /// Filtered estimates at each texel of the chart. With E_0 the light of lumels and E_l the fits of
 /// level l, and details d_l = E_{l-1} - E_l: E_n + Σ β_l d_l, with gains
 ///
-///     β = S / (S + ν),    T = mean over pairs d_a · d_b,    ν = |mean d|² - T,    S = T - caution
-///     ν
+///     β = S / (S + ν),    S = T - caution · ν,
+///     T = mean over pairs d_a · d_b,    ν = |mean d|² - T
 ///
 /// T is signal, as noise of different estimates is independent, and ν the noise of their mean, both
 /// averaged over cells nearby: an empirical Wiener filter. All estimates have the same gains.

@@ -1,6 +1,6 @@
 #pragma once
-// Light of a live scene at rest by the solver of lumel bake: cleaner than links of live scenes, and
-// what a bake of the edited scene contains.
+// Light of a live scene at rest, by the solver of `lumel bake`: less noisy than live links, and
+// equal to a bake of the edited scene.
 
 #include <chrono>
 #include <future>

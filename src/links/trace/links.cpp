@@ -36,7 +36,6 @@ constexpr std::uint32_t kFirstRays = 8;
 constexpr double kMinAdded = 0.4, kMaxAdded = 3.0;
 /// Rays allocated by deviation reduce the variance like 1 / kAdaptiveGain as many uniform ones.
 constexpr double kAdaptiveGain = 0.6;
-constexpr std::uint32_t kMaxLinks = 4096;
 /// Rays per lumel in all solutions for an estimated error of 5 %: 24 in Cornell's box, 34 in
 /// Sponza, 74 in the town of scenes/town.py.
 constexpr double kLikelyRays = 64.0;
@@ -44,10 +43,6 @@ constexpr double kLikelyRays = 64.0;
 constexpr double kLinkBytes = sizeof(LinkEnd), kRowBytes = sizeof(std::uint16_t);
 /// Fraction of lumels with direct light per cell: maximum seen.
 constexpr double kVarying = 0.1;
-/// Fraction of rays allocated uniformly.
-constexpr double kEvenShare = 0.25;
-/// Bisection steps for the rays that all lumels add.
-constexpr int kFillSteps = 24;
 /// Blocks of links per step, at the first round's number of rays.
 constexpr std::size_t kBlocksPerStep = 128;
 /// Blocks per step when rasterising, whose cost hardly grows with them: a million rays (200 MB).
@@ -65,8 +60,6 @@ constexpr double kDirectOfRound = 0.5;
 constexpr double kBrightRoom = 0.95;
 /// Lumels below this fraction of the mean are dark.
 constexpr double kDark = 1.0 / 3.0;
-/// Minimum brightness in ray allocation, relative to the mean.
-constexpr double kDarkest = 1e-2;
 
 /// Adds the elapsed time to a stage [ms].
 class Stopwatch {
@@ -374,85 +367,6 @@ double LinkRadiosity::rays_that_fit() const
         state_.shots > 0 ? taken / double(state_.shots) : double(work_.order.size()) * kLinkBytes;
     const double rows = kSolutions * double(work_.order.size()) * kRowBytes;
     return std::max(double(most_bytes_) - taken - rows, 0.0) / (kSolutions * of_ray);
-}
-
-/// [N] Weight of each lumel's squared error. With a target for dark lumels 1 / irradiance, halfway
-/// between absolute and relative errors.
-std::vector<double> LinkRadiosity::weights() const
-{
-    std::vector<double> weight(work_.order.size(), 1.0);
-    if (target_dark_error_ > 0.0)
-        for (std::size_t i = 0; i < weight.size(); ++i) {
-            const glm::vec3 all = arrived(i);
-            weight[i] = 1.0 / (double(all.r + all.g + all.b) + kDarkest * mean_light_);
-        }
-    return weight;
-}
-
-/// [N] Deviation that one ray of each lumel leaves in the filtered light, weighted. It is told by
-/// other lumels: rays allocated by a lumel's own error, or by light that the filter spread from it,
-/// would darken the result.
-std::vector<double> LinkRadiosity::deviation_of_ray(const std::vector<double>& sent) const
-{
-    const std::vector<double> weight = weights();
-    std::vector<double> raw(work_.order.size()), filtered(work_.order.size());
-    for (std::size_t i = 0; i < raw.size(); ++i) {
-        const double scale = weight[i] * sent[i];
-        raw[i] = scale * spread(indirect(i, 0), indirect(i, 1), indirect(i, 2)) / 18.0;
-        filtered[i] = scale * double(mean_.noise[i]);
-    }
-    std::vector<double> deviation = deviation_nearby(raw, work_.order, 0.0);
-    if (filter_) {
-        const std::vector<double> left = filter_->variance_left(raw, filtered);
-        for (std::size_t i = 0; i < deviation.size(); ++i)
-            deviation[i] *= std::sqrt(left[i]);
-    }
-    return deviation;
-}
-
-/// Allocates rays. The sum of variances is minimal if all rays of a lumel are proportional to the
-/// deviation of one; lumels are filled up to that. Some rays are uniform, since lumels whose rays
-/// have not found a light yet seem noiseless.
-void LinkRadiosity::share_out_rays()
-{
-    rays_.assign(work_.order.size(), std::uint16_t(std::lround(mean_rays_)));
-    if (state_.shots == 0)
-        return;
-    std::vector<double> sent(work_.order.size(), 0.0);
-    for (std::size_t i = 0; i < sent.size(); ++i)
-        for (const SourceTerm& source : sources_)
-            for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
-                sent[i] += double(source.rays[p]) / double(kSolutions);
-    filter();
-    const std::vector<double> deviation = deviation_of_ray(sent);
-    double lit = 0.0, widest = 0.0;
-    for (std::size_t i = 0; i < deviation.size(); ++i)
-        if (!work_.is_buried(i)) {
-            lit += 1.0;
-            widest = std::max(widest, deviation[i]);
-        }
-    if (!(widest > 0.0))
-        return;
-    const double wanted = (1.0 - kEvenShare) * mean_rays_ * lit;
-    const auto added = [&](std::size_t i, double scale) {
-        return work_.is_buried(i) ? 0.0 : std::max(scale * deviation[i] - sent[i], 0.0);
-    };
-    const auto all_added = [&](double scale) {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < deviation.size(); ++i)
-            sum += added(i, scale);
-        return sum;
-    };
-    double low = 0.0, high = 1.0 / widest;
-    while (all_added(high) < wanted)
-        high *= 2.0;
-    for (int step = 0; step < kFillSteps; ++step) {
-        const double middle = 0.5 * (low + high);
-        (all_added(middle) < wanted ? low : high) = middle;
-    }
-    for (std::size_t i = 0; i < deviation.size(); ++i)
-        rays_[i] = std::uint16_t(
-            std::clamp(std::lround(kEvenShare * mean_rays_ + added(i, high)), 0l, long(kMaxLinks)));
 }
 
 /// Solves for all bounces over the links of each solution.

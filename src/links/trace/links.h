@@ -88,6 +88,8 @@ private:
     LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters, const LinksOptions& options,
                   const SolveLimits& limits, Parts parts);
 
+    static constexpr std::uint32_t kMaxLinks = 4096;  ///< of a lumel in a round and solution
+
     enum class Stage { begin, direct, links, solve };
     /// Squared error by rays and by direct light.
     struct Errors {
@@ -112,7 +114,8 @@ private:
     bool has_known_round() const;
     StoredLinks::Round stored_round(std::size_t round, const LinkNumbers& stored) const;
     std::uint32_t interleaved() const;
-    std::vector<double> deviation_of_ray(const std::vector<double>& sent) const;
+    std::vector<double> rays_so_far() const;
+    std::vector<double> deviation_of_ray(const std::vector<double>& sent);
     void share_out_rays();
     void solve();
     void end_round();

@@ -347,8 +347,6 @@ Preview::Preview(const gpu::Device& device, const Scene& scene, const Atlas& atl
 {
 }
 
-Preview::Preview(Preview&&) noexcept = default;
-
 Preview::~Preview() = default;
 
 void Preview::show(const Scene& scene, const Atlas& atlas)

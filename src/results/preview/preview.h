@@ -31,7 +31,6 @@ glm::ivec2 preview_size(const gpu::Device& device, const View& view, int width);
 class Preview {
 public:
     Preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas);
-    Preview(Preview&&) noexcept;
     ~Preview();
 
     /// Replaces the surfaces of the scene.

@@ -1,0 +1,113 @@
+// LinkRadiosity's rays: how many each lumel sends in a round.
+
+#include <algorithm>
+#include <cmath>
+
+#include "links/direct/deviation.h"
+#include "links/trace/links.h"
+
+namespace lumel {
+namespace {
+
+/// Fraction of rays allocated uniformly.
+constexpr double kEvenShare = 0.25;
+/// Bisection steps for the rays that all lumels add.
+constexpr int kFillSteps = 24;
+/// Minimum brightness in ray allocation, relative to the mean.
+constexpr double kDarkest = 1e-2;
+
+/// The scale at which sum(scale) reaches `wanted`. sum: increasing, without bound. start: above 0.
+template <class Sum>
+double scale_for(double wanted, double start, const Sum& sum)
+{
+    double low = 0.0, high = start;
+    while (sum(high) < wanted)
+        high *= 2.0;
+    for (int step = 0; step < kFillSteps; ++step) {
+        const double middle = 0.5 * (low + high);
+        (sum(middle) < wanted ? low : high) = middle;
+    }
+    return high;
+}
+
+}  // namespace
+
+/// [N] Weight of each lumel's squared error. With a target for dark lumels 1 / irradiance, halfway
+/// between absolute and relative errors.
+std::vector<double> LinkRadiosity::weights() const
+{
+    std::vector<double> weight(work_.order.size(), 1.0);
+    if (target_dark_error_ > 0.0)
+        for (std::size_t i = 0; i < weight.size(); ++i) {
+            const glm::vec3 all = arrived(i);
+            weight[i] = 1.0 / (double(all.r + all.g + all.b) + kDarkest * mean_light_);
+        }
+    return weight;
+}
+
+/// [N] Rays of each lumel so far that count, per solution.
+std::vector<double> LinkRadiosity::rays_so_far() const
+{
+    std::vector<double> rays(work_.order.size(), 0.0);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        for (const SourceTerm& source : sources_)
+            for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
+                rays[i] += double(source.rays[p]) / double(kSolutions);
+    return rays;
+}
+
+/// [N] Weighted deviation of one ray of each lumel that the filter leaves, estimated from other
+/// lumels: rays allocated by a lumel's own error, or by light that the filter spread from it, would
+/// darken the result. sent: rays_so_far().
+std::vector<double> LinkRadiosity::deviation_of_ray(const std::vector<double>& sent)
+{
+    const std::vector<double> weight = weights();
+    std::vector<double> raw(work_.order.size()), filtered(work_.order.size());
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+        const double scale = weight[i] * sent[i];
+        // As in plain_mean().
+        raw[i] = scale * spread(indirect(i, 0), indirect(i, 1), indirect(i, 2)) / 18.0;
+        filtered[i] = scale * double(mean_.noise[i]);
+    }
+    std::vector<double> deviation = deviation_nearby(raw, work_.order, 0.0);
+    if (const ChartFilter* const by = filter()) {
+        const std::vector<double> left = by->variance_left(raw, filtered);
+        for (std::size_t i = 0; i < deviation.size(); ++i)
+            deviation[i] *= std::sqrt(left[i]);
+    }
+    return deviation;
+}
+
+/// Allocates rays. The sum of variances is minimal if all rays of a lumel are proportional to the
+/// deviation of one; lumels are filled up to that. Some rays are uniform, since lumels whose rays
+/// have not found a light yet seem noiseless.
+void LinkRadiosity::share_out_rays()
+{
+    rays_.assign(work_.order.size(), std::uint16_t(std::lround(mean_rays_)));
+    if (state_.shots == 0)
+        return;
+    const std::vector<double> sent = rays_so_far(), deviation = deviation_of_ray(sent);
+    double lit = 0.0, widest = 0.0;
+    for (std::size_t i = 0; i < deviation.size(); ++i)
+        if (!work_.is_buried(i)) {
+            lit += 1.0;
+            widest = std::max(widest, deviation[i]);
+        }
+    if (!(widest > 0.0))
+        return;
+    const auto added = [&](std::size_t i, double scale) {
+        return work_.is_buried(i) ? 0.0 : std::max(scale * deviation[i] - sent[i], 0.0);
+    };
+    const double wanted = (1.0 - kEvenShare) * mean_rays_ * lit;
+    const double scale = scale_for(wanted, 1.0 / widest, [&](double tried) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < deviation.size(); ++i)
+            sum += added(i, tried);
+        return sum;
+    });
+    for (std::size_t i = 0; i < deviation.size(); ++i)
+        rays_[i] = std::uint16_t(std::clamp(std::lround(kEvenShare * mean_rays_ + added(i, scale)),
+                                            0l, long(kMaxLinks)));
+}
+
+}  // namespace lumel
