@@ -14,6 +14,14 @@ std::vector<std::uint32_t> lumels_alike(const Lumels& from, const Lumels& to)
     return alike;
 }
 
+std::vector<char> buried_of(const Lumels& lumels)
+{
+    std::vector<char> buried;
+    for (const Lumel& lumel : lumels.lumels)
+        buried.push_back((lumel.flags & kLumelBuried) != 0);
+    return buried;
+}
+
 Lumels with_buried(Lumels lumels, const std::vector<char>& buried)
 {
     for (std::size_t i = 0; i < buried.size(); ++i) {

@@ -31,6 +31,22 @@ inline std::size_t place_by_side(const Lumel& lumel)
 /// atlas, or of parts of it.
 std::vector<std::uint32_t> lumels_alike(const Lumels& from, const Lumels& to);
 
+/// [lumels of `to`] The values [lumels of `from`] at the same texel and side; zero without
+/// any, as all are if there are no values.
+template <class Value>
+std::vector<Value> carried(const std::vector<Value>& values, const Lumels& from, const Lumels& to)
+{
+    std::vector<Value> result(to.lumels.size(), Value(0));
+    const std::vector<std::uint32_t> alike = lumels_alike(from, to);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (alike[i] != kNoLumel)
+            result[alike[i]] = values[i];
+    return result;
+}
+
+/// [N] 1: buried.
+std::vector<char> buried_of(const Lumels& lumels);
+
 /// The lumels, with those buried that `buried` [N] says, and no others.
 Lumels with_buried(Lumels lumels, const std::vector<char>& buried);
 

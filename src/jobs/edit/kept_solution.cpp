@@ -4,7 +4,6 @@
 
 #include "atlas/lumels/sides.h"
 #include "base/core/error.h"
-#include "base/core/usage.h"
 #include "methods/methods.h"
 
 namespace lumel {
@@ -13,9 +12,6 @@ namespace {
 /// Progress at the first estimate.
 constexpr double kFirstLight = 0.9;
 
-/// Share of the free memory that links may take.
-constexpr double kShareForLinks = 0.5;
-
 /// Limits of the bake: its target errors, or the errors it reached if rays or time ended it.
 SolverOptions limits_of(const BakeRecord& baked)
 {
@@ -23,7 +19,7 @@ SolverOptions limits_of(const BakeRecord& baked)
     const bool ended_early = options.max_shots > 0 || options.max_seconds > 0.0;
     options.max_shots = 0;
     options.max_seconds = 0.0;
-    options.max_bytes = std::uint64_t(kShareForLinks * double(available_memory_bytes()));
+    options.max_bytes = free_bytes_for_links();
     if (std::get<LinksOptions>(options.method).even_rays > 0)
         return options;
     if (ended_early)

@@ -22,6 +22,7 @@
 #include "atlas/cells/order.h"
 #include "base/core/error.h"
 #include "base/core/state_bytes.h"
+#include "base/core/usage.h"
 #include "links/direct/deviation.h"
 #include "links/trace/link_casters.h"
 #include "links/trace/shared_directions.h"
@@ -61,6 +62,8 @@ constexpr double kBrightRoom = 0.95;
 /// Lumels below this fraction of the mean are dark.
 constexpr double kDark = 1.0 / 3.0;
 
+constexpr double kShareOfFree = 0.5;
+
 /// Adds the elapsed time to a stage [ms].
 class Stopwatch {
 public:
@@ -79,6 +82,11 @@ private:
 };
 
 }  // namespace
+
+std::uint64_t free_bytes_for_links()
+{
+    return std::uint64_t(kShareOfFree * double(available_memory_bytes()));
+}
 
 LinkRadiosity::LinkRadiosity(const gpu::Device& device, const SolveScene& scene,
                              const LinksOptions& options, const SolveLimits& limits, Parts parts)

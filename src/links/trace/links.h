@@ -20,6 +20,9 @@
 
 namespace lumel {
 
+/// The share of the free memory that links may take [bytes].
+std::uint64_t free_bytes_for_links();
+
 /// Solves for light of all sources, including skies and lamps. Runs on the CPU; a step takes a
 /// fraction of a second.
 class LinkRadiosity final : public Solver {

@@ -15,25 +15,6 @@
 #include "viewer/session/session.h"
 
 namespace lumel {
-namespace {
-
-/// Assigns light to the session's lumels by texel and side.
-void assign(SolvedLight& light, const Lumels& own, const Lumels& solved,
-            const std::vector<glm::vec3>& irradiance)
-{
-    const std::vector<std::uint32_t> found = lumels_alike(solved, own);
-    light.irradiance.assign(own.lumels.size(), glm::vec3(0.0f));
-    light.buried.assign(own.lumels.size(), 0);
-    for (std::size_t i = 0; i < irradiance.size(); ++i) {
-        if (found[i] == kNoLumel)
-            continue;
-        light.irradiance[found[i]] = irradiance[i];
-        light.buried[found[i]] = (solved.lumels[i].flags & kLumelBuried) != 0;
-    }
-}
-
-}  // namespace
-
 /// Rereads materials for methods that support gloss, which links do not. Objects are where they are
 /// displayed, even if their light is not there yet.
 StandingScene ViewSession::standing(MaterialModel model) const
@@ -81,14 +62,15 @@ SolvedLight solve_standing(const gpu::Device& device, StandingScene standing, co
     stages.end();
     device.check_validation();
     const SolverState state = solution->solver->state();
-    SolvedLight light{.options = solver,
-                      .shots = state.shots,
-                      .error = state.error,
-                      .seconds = stages.seconds(),
-                      .stopped = !solution->run.finished,
-                      .warnings = stages.warnings()};
-    assign(light, lumels, setting.prepared.lumels, solution->irradiance);
-    return light;
+    const Lumels& solved = setting.prepared.lumels;
+    return {.options = solver,
+            .irradiance = carried(solution->irradiance, solved, lumels),
+            .buried = carried(buried_of(solved), solved, lumels),
+            .shots = state.shots,
+            .error = state.error,
+            .seconds = stages.seconds(),
+            .stopped = !solution->run.finished,
+            .warnings = stages.warnings()};
 }
 
 SolveAside::SolveAside(const ViewSession& session, const SolverOptions& options)
