@@ -23,10 +23,10 @@ double spread(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 /// not negative, and its standard error is added, so that few rays are not trusted too early.
 class SquaredError {
 public:
-    void add(const Mean& mean, std::size_t lumel)
+    void add(const Mean& mean, std::size_t lumel, double weight = 1.0)
     {
-        noise_ += double(mean.noise[lumel]);
-        const auto wrong = double(mean.wrong[lumel]);
+        noise_ += weight * double(mean.noise[lumel]);
+        const double wrong = weight * double(mean.wrong[lumel]);
         wrong_ += wrong;
         squares_ += wrong * wrong;
     }

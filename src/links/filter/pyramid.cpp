@@ -16,6 +16,11 @@ constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
 /// Radius of the window in deviations.
 constexpr float kGainRadius = 2.5f;
 
+/// Classes of the distance to other geometry: 1, 2, 4 … lumels.
+constexpr int kDistanceClasses = 6;
+/// Cells of any distance that take part, in case few are alike.
+constexpr float kUnlikeCells = 8.0f;
+
 /// Averages of a level over cells nearby.
 struct Moments {
     float signal = 0.0f, mean = 0.0f, bound = 0.0f, count = 0.0f;
@@ -99,6 +104,40 @@ float gain_of(const Moments& sums, const PyramidRule& rule, float caution)
     return signal + noise > 0.0f ? signal / (signal + noise) : 1.0f;
 }
 
+/// Weight of a distance [octaves] in a class of distances: of a linear interpolation.
+float weight_in(int distance_class, float octaves)
+{
+    return std::max(1.0f - std::abs(octaves - float(distance_class)), 0.0f);
+}
+
+/// Averages over cells nearby that are alike in distance, as in a bilateral grid [CPD07]: noise of
+/// lumels in contact must not pass for detail of open ones beside them. octaves: distance of each
+/// cell to other geometry, 0…kDistanceClasses - 1.
+std::vector<Moments> averaged(const std::vector<Moments>& cells, const std::vector<float>& octaves,
+                              int width, int height, float spread)
+{
+    std::vector<Moments> all = cells, result(cells.size());
+    blur(all, width, height, spread);
+    for (int c = 0; c < kDistanceClasses; ++c) {
+        std::vector<Moments> alike(cells.size());
+        bool any = false;
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            if (const float weight = weight_in(c, octaves[i]); weight > 0.0f && cells[i].count > 0.0f) {
+                alike[i] = cells[i] * weight;
+                any = true;
+            }
+        if (!any)
+            continue;
+        blur(alike, width, height, spread);
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            if (const float weight = weight_in(c, octaves[i]); weight > 0.0f && all[i].count > 0.0f) {
+                result[i] += alike[i] * weight;
+                result[i] += all[i] * (weight * kUnlikeCells / all[i].count);
+            }
+    }
+    return result;
+}
+
 /// Gains of a level's cells.
 template <std::size_t Count>
 std::vector<float> gains_of(const FilterChart& chart, const FitLevel<Count>& level,
@@ -107,6 +146,7 @@ std::vector<float> gains_of(const FilterChart& chart, const FitLevel<Count>& lev
                             float caution)
 {
     std::vector<Moments> cells(level.count.size());
+    std::vector<float> octaves(cells.size(), 0.0f);
     const float spread = kFitSpread * float(level.side);
     for (int y = 0; y < chart.height; ++y)
         for (int x = 0; x < chart.width; ++x) {
@@ -115,8 +155,14 @@ std::vector<float> gains_of(const FilterChart& chart, const FitLevel<Count>& lev
                 continue;
             const float reach = std::min(spread * chart.nearness[t], 1.0f);
             cells[cell] += moments_of<Count>(detail[t], fitted[t], reach * reach);
+            if (rule.is_bounded)
+                octaves[cell] += std::clamp(-std::log2(std::max(chart.nearness[t], 1e-9f)), 0.0f,
+                                            float(kDistanceClasses - 1));
         }
-    blur(cells, level.width, level.height, level.side == 1 ? kFinestGainSpread : kGainSpread);
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+        octaves[cell] /= std::max(cells[cell].count, 1.0f);
+    cells = averaged(cells, octaves, level.width, level.height,
+                     level.side == 1 ? kFinestGainSpread : kGainSpread);
     std::vector<float> gains(cells.size());
     for (std::size_t cell = 0; cell < cells.size(); ++cell)
         gains[cell] = gain_of(cells[cell], rule, caution);

@@ -1,6 +1,8 @@
 #pragma once
 // Filters a chart by a pyramid of local fits, joined by gains that independent estimates tell.
 //
+// [CPD07] J. Chen, S. Paris, F. Durand. Real-Time Edge-Aware Image Processing with the Bilateral
+//         Grid. SIGGRAPH 2007.
 // [RKZ11] F. Rousselle, C. Knaus, M. Zwicker. Adaptive Sampling and Reconstruction using Greedy
 //         Error Minimization. SIGGRAPH Asia 2011.
 // [WH92] G. Ward, P. Heckbert. Irradiance Gradients. Eurographics Workshop on Rendering 1992.
@@ -34,7 +36,8 @@ PyramidRule rule_of_direct();
 ///     T = mean over pairs d_a · d_b,    ν = |mean d|² - T
 ///
 /// T is signal, as noise of different estimates is independent, and ν the noise of their mean, both
-/// averaged over cells nearby: an empirical Wiener filter. All estimates have the same gains.
+/// averaged over cells nearby, of indirect light over those as far from other geometry [CPD07]: an
+/// empirical Wiener filter. All estimates have the same gains.
 template <std::size_t Count>
 std::vector<FitLight<Count>> filter_chart(const FilterChart& chart,
                                           const std::array<const Estimates*, Count>& found,
