@@ -23,10 +23,14 @@ int run(const BakeArguments& arguments)
         if (arguments.page)
             write_page(page_in(arguments.folder), std::array{arguments.folder});
         std::string error;
-        if (summary.error >= 0.0)
+        if (summary.eye_error >= 0.0)
+            error = fmt::format(", estimated error {:.2f} % of the light around ({:.2f} % overall)",
+                                100.0 * summary.eye_error, 100.0 * summary.error);
+        else if (summary.error >= 0.0)
             error = fmt::format(", estimated error {:.2f} %", 100.0 * summary.error);
-        if (summary.dark_error >= 0.0)
-            error += " (dark areas " + percent_text(summary.dark_error) + ")";
+        const SolverOptions& solver = arguments.options.solver;
+        if (solver.has_default_limits() && summary.eye_error > solver.target_eye_error)
+            error += "; --quality good goes on";
         return Conclusion{summary.report,
                           fmt::format("{}: {} {} in {:.1f} s{}", arguments.folder, summary.shots,
                                       method_of(arguments.options.solver.method).shots,

@@ -66,12 +66,12 @@ void set_links(const Command& command, const GivenLinks& links, BakeOptions& opt
     auto* method = std::get_if<LinksOptions>(&options.solver.method);
     if (!method)
         throw Error(ErrorKind::input, "--links", "is read by --solver links only");
-    for (const char* option : {"--error", "--dark-error", "--shots", "--time"})
+    for (const char* option : {"--quality", "--error", "--dark-error", "--shots", "--time"})
         if (command.given(option))
             throw Error(ErrorKind::input, option,
                         "cannot be given with --links, which fixes the number of rays");
     method->even_rays = links.rays;
-    options.solver.target_error = 0.0;
+    options.solver.target_error = options.solver.target_eye_error = 0.0;
 }
 
 }  // namespace
@@ -103,8 +103,8 @@ Command bake_command()
     add_dump_option(command, options.dump);
     add_talk_options(command, given->talk);
     command.arguments = [given, method, links](const Command& parsed) -> Arguments {
-        drop_default_error(parsed, given->options.solver);
         given->options.solver.method = method->options();
+        set_default_target(parsed, given->options.solver);
         check_limits(given->options.solver);
         set_links(parsed, *links, given->options);
         return {*given};

@@ -96,8 +96,8 @@ Command render_command()
     add_talk_options(command, given->talk);
     command.arguments = [given, method](const Command& parsed) -> Arguments {
         SolverOptions& solver = given->options.bake.solver;
-        drop_default_error(parsed, solver);
         solver.method = method->options();
+        set_default_target(parsed, solver);
         if (parsed.given("--lobe-rays") && is_papers(solver.method))
             throw Error(ErrorKind::input, "--lobe-rays",
                         "does nothing with --scheme paper, which has no rays");

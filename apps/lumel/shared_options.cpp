@@ -24,6 +24,8 @@ const Choices<LightmapFormat> kLightmapFormats = {{"ktx2", LightmapFormat::ktx2}
                                                   {"rgb9e5", LightmapFormat::rgb9e5},
                                                   {"png", LightmapFormat::png},
                                                   {"none", LightmapFormat::none}};
+const Choices<double> kQualities = {
+    {"draft", kDraftError}, {"good", kGoodError}, {"fine", kFineError}};
 const Choices<Sides> kSides = {{"auto", Sides::automatic},
                                {"both", Sides::both},
                                {"brighter", Sides::brighter},
@@ -171,9 +173,17 @@ void add_stop_options(Command& command, SolverOptions& solver)
          {"--time", "SECONDS",
           "Stop solving this long after the start of the command, then write the results",
           &solver.max_seconds, "", positive()},
+         choice(solver.target_eye_error, kQualities,
+                {.names = "--quality",
+                 .help = "Stop when the estimated error relative to the light around each lumel is "
+                         "5 % (draft: grain shows on plain walls), 2.5 % (good: clean at first "
+                         "sight) or 1 % (fine: clean at three times the size); only links",
+                 .default_value = "good, but at most " + text_of(kDefaultRays) +
+                                  " rays per lumel; none with --error, --shots, --time or "
+                                  "--dark-error"}),
          {"--error", "PERCENT", "Stop at this estimated relative error of the whole lightmap",
           [&solver](double percent) { solver.target_error = percent / 100.0; },
-          text_of(100.0 * solver.target_error) + ", or none with --shots or --time", positive()},
+          "none; 2 with other methods than links, or none with --shots or --time", positive()},
          {"--dark-error", "PERCENT",
           "Stop when dark areas (below a third of the mean) reach this estimated relative error "
           "(only links)",
@@ -181,11 +191,19 @@ void add_stop_options(Command& command, SolverOptions& solver)
           positive()}});
 }
 
-void drop_default_error(const Command& command, SolverOptions& solver)
+void set_default_target(const Command& command, SolverOptions& solver)
 {
-    if (!command.given("--error") &&
-        (command.given("--shots") || command.given("--time") || command.given("--dark-error")))
+    if (command.given("--error"))
+        return;
+    const bool has_limit = command.given("--quality") || command.given("--shots") ||
+                           command.given("--time") || command.given("--dark-error");
+    const bool by_eye = method_of(solver.method).states_dark_error;
+    if (has_limit || by_eye)
         solver.target_error = 0.0;
+    if (!has_limit && by_eye) {
+        solver.target_eye_error = kGoodError;
+        solver.max_shots = kDefaultRays;
+    }
 }
 
 void add_sky_directions_option(Command& command, BakeOptions& options)

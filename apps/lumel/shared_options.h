@@ -49,8 +49,9 @@ void add_talk_options(Command& command, Talk& talk);
 
 void add_stop_options(Command& command, SolverOptions& solver);
 
-/// Without --error, a solve with another limit has no target error. Call when all values are known.
-void drop_default_error(const Command& command, SolverOptions& solver);
+/// The target of a solve without --error: none beside another limit; else that of --quality good,
+/// or the default error of methods that do not state it. Call when all values are known.
+void set_default_target(const Command& command, SolverOptions& solver);
 
 void add_sky_directions_option(Command& command, BakeOptions& options);
 

@@ -101,10 +101,16 @@ MethodOptions method_options(std::string_view id, const std::map<std::string, st
 void check_limits(const SolverOptions& options)
 {
     const MethodInfo& method = method_of(options.method);
-    if (options.target_dark_error > 0.0 && !method.states_dark_error)
+    if (method.states_dark_error)
+        return;
+    const std::string unknown = std::string("is not known to --solver ") + method.id;
+    if (options.target_dark_error > 0.0)
         throw Error(ErrorKind::input, "--dark-error",
-                    std::string("is not known to --solver ") + method.id +
-                        ", which does not state the error of dark places");
+                    unknown + ", which does not state the error of dark places");
+    if (options.target_eye_error > 0.0)
+        throw Error(ErrorKind::input, "--quality",
+                    unknown + ", which does not state the error relative to the light around; "
+                              "use --error");
 }
 
 std::string get_option(const MethodOptions& method, const OptionInfo& option)

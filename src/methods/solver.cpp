@@ -24,9 +24,9 @@ bool solve(Solver& solver, const SolverOptions& options,
         const auto met = [](double error, double target) {
             return target <= 0.0 || (error >= 0.0 && error <= target);
         };
-        if ((options.target_error > 0.0 || options.target_dark_error > 0.0) &&
-            met(state.error, options.target_error) &&
-            met(state.dark_error, options.target_dark_error))
+        if (options.has_target() && met(state.error, options.target_error) &&
+            met(state.dark_error, options.target_dark_error) &&
+            met(state.eye_error, options.target_eye_error))
             return true;
         if (state.full || state.ended)
             return true;

@@ -210,7 +210,7 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const S
     write_json(folder.path(kReportFile), report);
     return {.shots = results.shots,
             .error = results.error,
-            .dark_error = results.dark_error,
+            .eye_error = results.eye_error,
             .seconds = stages.seconds(),
             .interrupted = results.interrupted,
             .report = json_text(report)};

@@ -23,7 +23,7 @@ struct ReferenceOptions;
 struct Results {
     std::uint64_t shots = 0;
     std::uint64_t iterations = 0;
-    double error = -1.0, dark_error = -1.0;
+    double error = -1.0, dark_error = -1.0, eye_error = -1.0;  ///< as in SolverState
     bool interrupted = false;
     std::size_t near_pairs = 0;
     std::vector<ConvergencePoint> curve;

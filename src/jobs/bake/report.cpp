@@ -30,6 +30,7 @@ BakeRecord record_of(const BakeOptions& options, const SolveScene& prepared, con
                       .iterations = results.iterations,
                       .error = results.error,
                       .dark_error = results.dark_error,
+                      .eye_error = results.eye_error,
                       .interrupted = results.interrupted,
                       .exposure = written.exposure,
                       .files = baked_files(prepared.atlas.pages)};

@@ -26,7 +26,9 @@ SolverOptions limits_of(const BakeRecord& baked)
         options.target_error = std::max(options.target_error, baked.error);
     if (ended_early && options.target_dark_error > 0.0)
         options.target_dark_error = std::max(options.target_dark_error, baked.dark_error);
-    if (!(options.target_error > 0.0) && !(options.target_dark_error > 0.0))
+    if (ended_early && options.target_eye_error > 0.0)
+        options.target_eye_error = std::max(options.target_eye_error, baked.eye_error);
+    if (!options.has_target())
         options.target_error = SolverOptions{}.target_error;
     return options;
 }

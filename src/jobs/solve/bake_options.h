@@ -55,7 +55,7 @@ using ProgressFunction = std::function<bool(const BakeProgress&)>;
 struct BakeSummary {
     std::uint64_t shots = 0;
     double error = -1.0;       ///< estimated relative error
-    double dark_error = -1.0;  ///< as in SolverState
+    double eye_error = -1.0;   ///< as in SolverState
     double seconds = 0.0;      ///< total
     bool interrupted = false;
     std::string report;  ///< JSON of report.json

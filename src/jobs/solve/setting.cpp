@@ -36,6 +36,8 @@ double solved_fraction(const SolverOptions& limits, const SolverState& state, do
         error = std::min(error, limits.target_error / state.error);
     if (limits.target_dark_error > 0.0 && state.dark_error > 0.0)
         error = std::min(error, limits.target_dark_error / state.dark_error);
+    if (limits.target_eye_error > 0.0 && state.eye_error > 0.0)
+        error = std::min(error, limits.target_eye_error / state.eye_error);
     if (error < 1.0)
         fraction = std::max(fraction, std::pow(error, 1.0 / kSlope));
     return std::min(std::max(fraction, kFirstEstimate * state.begun), 1.0);
@@ -88,6 +90,8 @@ public:
                                        100.0 * state.error);
         if (state.dark_error >= 0.0)
             note += fmt::format(", of dark lumels {:.2f} %", 100.0 * state.dark_error);
+        if (state.eye_error >= 0.0)
+            note += fmt::format(", relative to the light around {:.2f} %", 100.0 * state.eye_error);
         stages.note(note);
         next_ = 2 * state.shots;
     }
@@ -142,7 +146,8 @@ SolverOptions for_what_is_left(SolverOptions options, const Stages& stages)
 
 void tell_missed(const SolverOptions& options, const SolverState& state, Stages& stages)
 {
-    if (state.shots == 0 || (options.max_shots == 0 && options.max_seconds <= 0.0))
+    if (state.shots == 0 || options.has_default_limits() ||
+        (options.max_shots == 0 && options.max_seconds <= 0.0))
         return;
     const auto tell = [&](double reached, double wanted, const char* of) {
         if (wanted <= 0.0 || (reached >= 0.0 && reached <= wanted))
@@ -157,6 +162,7 @@ void tell_missed(const SolverOptions& options, const SolverState& state, Stages&
     };
     tell(state.error, options.target_error, "");
     tell(state.dark_error, options.target_dark_error, " of dark lumels");
+    tell(state.eye_error, options.target_eye_error, " relative to the light around");
 }
 
 SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stages,

@@ -24,6 +24,7 @@
 #include "base/core/state_bytes.h"
 #include "base/core/usage.h"
 #include "links/direct/deviation.h"
+#include "links/trace/adapted_light.h"
 #include "links/trace/link_casters.h"
 #include "links/trace/shared_directions.h"
 #include "rays/paths/samples.h"
@@ -105,6 +106,7 @@ LinkRadiosity::LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters,
     : options_(options),
       target_error_(limits.target_error),
       target_dark_error_(limits.target_dark_error),
+      target_eye_error_(limits.target_eye_error),
       most_shots_(limits.max_shots),
       most_bytes_(limits.max_bytes),
       parts_wanted_(parts),
@@ -198,7 +200,7 @@ void LinkRadiosity::state(Archive& archive)
 {
     archive(*direct_, direct_mean_.light, direct_mean_.noise, direct_mean_.wrong, round_,
             mean_rays_, means_, rays_, traced_, mean_.light, mean_.noise, mean_.wrong, mean_light_,
-            all_, dark_, state_, times_);
+            adapted_, all_, dark_, eye_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
         archive(*links_[k], sources_[k].rays, received_[k]);
 }
@@ -235,7 +237,7 @@ void LinkRadiosity::check_sizes() const
                 direct_mean_.noise.size() == direct_mean_.light.size() &&
                 direct_mean_.wrong.size() == direct_mean_.light.size() &&
                 is(mean_.light.size(), lumels) && is(mean_.noise.size(), lumels) &&
-                is(mean_.wrong.size(), lumels) && traced_ <= tracer_->blocks() &&
+                is(mean_.wrong.size(), lumels) && is(adapted_.size(), lumels) && traced_ <= tracer_->blocks() &&
                 means_.size() == round_ && (state_.shots > 0) == !mean_.light.empty() &&
                 (!is_tracing || (mean_rays_ > 0.0 && rays_.size() == lumels)) &&
                 (stage_ != Stage::solve || traced_ == tracer_->blocks());
@@ -439,6 +441,8 @@ std::vector<LinkRadiosity::Wanted> LinkRadiosity::wanted() const
         result.push_back({target_error_, all_});
     if (target_dark_error_ > 0.0)
         result.push_back({target_dark_error_, dark_});
+    if (target_eye_error_ > 0.0)
+        result.push_back({target_eye_error_, eye_});
     return result;
 }
 
@@ -591,7 +595,36 @@ void LinkRadiosity::estimate()
     all_ = all.errors();
     dark_ = dark.errors();
     state_.error = std::sqrt(all_.rays + all_.direct);
+    eye_ = estimate_for_eye();
     state_.dark_error = std::sqrt(dark_.rays + dark_.direct);
+    state_.eye_error = std::sqrt(eye_.rays + eye_.direct);
+}
+
+/// Mean of squared errors relative to the light that an eye adapts to.
+LinkRadiosity::Errors LinkRadiosity::estimate_for_eye()
+{
+    std::vector<double> light(work_.lumels().size());
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const glm::vec3 all = arrived(i);
+        light[i] = double(all.r + all.g + all.b);
+    }
+    adapted_ = adapted_light(work_.scene.lumels, light);
+    SquaredError rays, direct;
+    double count = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        if (work_.is_buried(i))
+            continue;
+        count += 1.0;
+        if (!(adapted_[i] > 0.0))
+            continue;
+        // √(Σ d² / 3) / (Σ adapted / 3), squared
+        const double weight = 3.0 / (adapted_[i] * adapted_[i]);
+        if (parts_wanted_ != Parts::indirect)
+            direct.add(direct_mean_, i, weight);
+        if (!mean_.light.empty())
+            rays.add(mean_, i, weight);
+    }
+    return {rays.sum() / std::max(count, 1.0), direct.sum() / std::max(count, 1.0)};
 }
 
 /// Irradiance at a lumel, of the requested parts of light [lx].

@@ -137,9 +137,10 @@ private:
     const ChartFilter* filter();
     void combine();
     void estimate();
+    Errors estimate_for_eye();
 
     const LinksOptions options_;
-    const double target_error_, target_dark_error_;
+    const double target_error_, target_dark_error_, target_eye_error_;
     const std::uint64_t most_shots_;  ///< 0: no limit
     const std::uint64_t most_bytes_;  ///< memory limit of links, 0: no limit
     const Parts parts_wanted_;
@@ -167,7 +168,8 @@ private:
     std::vector<std::uint16_t> rays_;  ///< [N] rays of each lumel in the round, in each solution
     std::size_t traced_ = 0;           ///< blocks of the round
     double mean_light_ = 0.0;          ///< summed over channels [lx]
-    Errors all_, dark_;
+    std::vector<double> adapted_;      ///< [N] adapted_light() of the present estimate
+    Errors all_, dark_, eye_;
     SolverState state_;
     gpu::StageTimes times_;
 };

@@ -32,12 +32,15 @@ double scale_for(double wanted, double start, const Sum& sum)
 
 }  // namespace
 
-/// [N] Weight of each lumel's squared error. With a target for dark lumels 1 / irradiance, halfway
-/// between absolute and relative errors.
+/// [N] Weight of each lumel's squared error. With a target for the eye that of its measure; for dark
+/// lumels 1 / irradiance, halfway between absolute and relative errors.
 std::vector<double> LinkRadiosity::weights() const
 {
     std::vector<double> weight(work_.order.size(), 1.0);
-    if (target_dark_error_ > 0.0)
+    if (target_eye_error_ > 0.0 && !adapted_.empty()) {
+        for (std::size_t i = 0; i < weight.size(); ++i)
+            weight[i] = adapted_[i] > 0.0 ? std::pow(mean_light_ / adapted_[i], 2.0) : 0.0;
+    } else if (target_dark_error_ > 0.0)
         for (std::size_t i = 0; i < weight.size(); ++i) {
             const glm::vec3 all = arrived(i);
             weight[i] = 1.0 / (double(all.r + all.g + all.b) + kDarkest * mean_light_);

@@ -24,6 +24,7 @@ void LinkRadiosity::relight()
     sources_ = {};
     mean_ = {};
     direct_mean_ = {};
+    adapted_.clear();
     round_ = 0;
     means_.clear();
     state_ = {};

@@ -136,6 +136,7 @@ Report report_of(const BakeRecord& record)
     report.iterations = record.iterations;
     report.estimated_error = record.error;
     report.estimated_dark_error = record.dark_error;
+    report.estimated_eye_error = record.eye_error;
     report.interrupted = record.interrupted;
     report.exposure = record.exposure;
     report.files = record.files;
@@ -170,6 +171,8 @@ BakeRecord record_of(const JsonView& report, const std::string& folder)
         result("estimated_error", record.error, kErrors);
     if (solution.find("estimated_dark_error"))
         result("estimated_dark_error", record.dark_error, kErrors);
+    if (solution.find("estimated_eye_error"))
+        result("estimated_eye_error", record.eye_error, kErrors);
     if (const auto exposure = solution.find("exposure"))
         record.exposure = float(exposure->number(0.0, std::numeric_limits<float>::max()));
     report.each("files",

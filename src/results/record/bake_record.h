@@ -47,6 +47,7 @@ struct BakeRecord {
     std::uint64_t shots = 0, iterations = 0;
     double error = -1.0;       ///< estimated relative error, < 0: unknown
     double dark_error = -1.0;  ///< as in SolverState
+    double eye_error = -1.0;   ///< as in SolverState
     bool interrupted = false;
     std::optional<float> exposure;   ///< exposure of its images [1/lx]
     std::vector<std::string> files;  ///< written

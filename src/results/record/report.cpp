@@ -91,6 +91,8 @@ Json solution(const Report& report)
         result["estimated_error"] = report.estimated_error;
     if (report.estimated_dark_error >= 0.0)
         result["estimated_dark_error"] = report.estimated_dark_error;
+    if (report.estimated_eye_error >= 0.0)
+        result["estimated_eye_error"] = report.estimated_eye_error;
     if (report.exposure)
         result["exposure"] = shortest(*report.exposure);
     result["convergence"] = curve;

@@ -116,6 +116,7 @@ struct Report {
     std::string rays;                     ///< ray tracing backend: "host", "query" or "raster"
     double estimated_error = -1.0;        ///< relative, < 0: unknown
     double estimated_dark_error = -1.0;   ///< see SolverState::dark_error
+    double estimated_eye_error = -1.0;    ///< see SolverState::eye_error
     bool interrupted = false;
     std::optional<float> exposure;  ///< exposure of the map's or images' PNG [1/lx or m²/cd]
     std::vector<ConvergencePoint> convergence;

@@ -22,6 +22,9 @@ void each_limit(Options& options, const Visit& visit)
     visit("dark_error", options.target_dark_error);
 }
 
+/// A limit newer than the format: a report without it had none.
+constexpr const char* kNewerLimit = "eye_error";
+
 /// Numbers as numbers, names as strings.
 Json json_of(const OptionInfo& option, const MethodOptions& method)
 {
@@ -42,7 +45,9 @@ Json solver_settings(const SolverOptions& options)
 {
     const MethodInfo& method = method_of(options.method);
     Json settings = {{"method", method.id}};
-    each_limit(options, FieldWriter(settings["limits"]));
+    const FieldWriter limits(settings["limits"]);
+    each_limit(options, limits);
+    limits(kNewerLimit, options.target_eye_error);
     Json& own = settings["options"] = Json::object();
     for (const OptionInfo& option : method.options)
         own[option.name] = json_of(option, options.method);
@@ -68,7 +73,11 @@ SolverOptions solver_options_of(const JsonView& settings)
         if (!set_option(options.method, option, text_of(value.json())))
             value.fail("must be " + option.range());
     }
-    each_limit(options, FieldReader(settings.get("limits")));
+    const JsonView limits = settings.get("limits");
+    const FieldReader limit(limits);
+    each_limit(options, limit);
+    if (limits.find(kNewerLimit))
+        limit(kNewerLimit, options.target_eye_error);
     return options;
 }
 

@@ -68,8 +68,8 @@ SolverOptions order_of(std::span<const std::string> words)
             given.values[name] = words[w + 1];
     }
     options.method = given.options();
-    const bool has_limit = options.target_error > 0.0 || options.target_dark_error > 0.0 ||
-                           options.max_shots > 0 || options.max_seconds > 0.0;
+    const bool has_limit =
+        options.has_target() || options.max_shots > 0 || options.max_seconds > 0.0;
     if (!has_limit)
         options.target_error = SolverOptions{}.target_error;
     check_limits(options);

@@ -24,14 +24,14 @@ const seconds = (time) => `${Number(time.toPrecision(3))} s`;
 
 /** One-line summary of the bake. */
 export function summary({ scene, solver, device, sizes, solution, timings }) {
-    const { estimated_error: error, estimated_dark_error: dark } = solution;
+    const { estimated_error: error, estimated_eye_error: eye } = solution;
     return [
         scene.file,
         `${sizes.atlas_width} × ${sizes.atlas_height} texels`,
         `${sizes.lumels.toLocaleString('en')} lumels`,
         `method ${solver?.method ?? 'unknown'}`,
         error === undefined ? 'error unknown' : `estimated error ${percent(error)}`,
-        ...(dark === undefined ? [] : [`in the dark ${percent(dark)}`]),
+        ...(eye === undefined ? [] : [`relative to the light around ${percent(eye)}`]),
         seconds(timings.wall_seconds),
         device.name,
     ].join(' · ');
