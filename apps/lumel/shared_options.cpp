@@ -134,6 +134,9 @@ void add_light_options(Command& command, LightOptions& lights)
           "0.2665 for --sun", between(0.0, kLargestSunAngle)},
          {"--light-radius", "METRES", "Radius of point and spot lights that have none",
           &lights.light_radius, "0", positive()},
+         {"--max-albedo", "RHO",
+          "Maximum reflectance of materials, in the brightest channel; 1: as the file says",
+          &lights.max_albedo, "0.95", between(0.0, 1.0)},
          {.names = "--ies",
           .type = "LIGHT=FILE",
           .help = "IES photometric file for the point or spot lights of this name; * matches any "

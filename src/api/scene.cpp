@@ -5,6 +5,7 @@
 
 #include "api/translate.h"
 #include "api/values.h"
+#include "scene/load/albedo_cap.h"
 #include "scene/sky/light_options.h"
 
 namespace lumel::v0 {
@@ -41,18 +42,25 @@ MaterialModel model_of(Materials materials)
     return materials == Materials::glossy ? MaterialModel::glossy : MaterialModel::diffuse;
 }
 
+lumel::Scene with_cap(lumel::Scene scene)
+{
+    cap_albedo(scene, scene.max_albedo);
+    return scene;
+}
+
 }  // namespace
 
 Scene Scene::load(const std::string& path, Materials materials)
 {
     return translated([&] {
-        return Scene(
-            std::make_unique<SceneImpl>(SceneImpl{lumel::read_gltf(path, model_of(materials))}));
+        return Scene(std::make_unique<SceneImpl>(
+            SceneImpl{with_cap(lumel::read_gltf(path, model_of(materials)))}));
     });
 }
 
 Scene::Scene(const SceneContent& content)
-    : impl_(translated([&] { return std::make_unique<SceneImpl>(SceneImpl{scene_of(content)}); }))
+    : impl_(translated(
+          [&] { return std::make_unique<SceneImpl>(SceneImpl{with_cap(scene_of(content))}); }))
 {
 }
 

@@ -14,6 +14,7 @@ inline double mean_in_closed_room(float albedo, const SolverOptions& options)
     const auto walls = box_walls({0, 0, 0}, {2.0f, 1.5f, 3.0f}, true, look);
     const std::vector<Quad> quads(walls.begin(), walls.end());
     HandMade room = make_quads(quads);
+    room.scene.max_albedo = 1.0f;
     const Atlas atlas = lay_out(room, quads);
     const Solved solved = solve_scene(SolveScene(room.scene, atlas, room.lumels), options);
     double light = 0.0, area = 0.0;

@@ -38,6 +38,28 @@ TEST_P(ClosedRoom, GlowsAsItsAbsorptionAllows)
     EXPECT_NEAR(support::mean_in_closed_room(GetParam(), links(0.02)), truth, 0.01 * truth);
 }
 
+/// The path-traced truth has the same cap.
+TEST(Links, ReflectAtMostTheMaximumAlbedo)
+{
+    Scene scene = read_gltf(support::scene_path("furnace-0.9"));
+    for (Material& material : scene.materials)
+        material.base_color = glm::vec4(1.0f);
+    const SolveScene world(std::move(scene), AtlasOptions{.size = 32});
+    const double truth = furnace_irradiance(1.0, double(kMaxAlbedo));
+    const std::vector<glm::vec3> solved = support::solve_scene(world, links(0.02)).irradiance,
+                                 traced =
+                                     reference_irradiance(world.scene, world.rays, world.lumels,
+                                                          {.samples_per_lumel = 64});
+    const auto mean = [](const std::vector<glm::vec3>& light) {
+        double sum = 0.0;
+        for (const glm::vec3& one : light)
+            sum += double(one.g);
+        return sum / double(light.size());
+    };
+    EXPECT_NEAR(mean(solved), truth, 0.01 * truth);
+    EXPECT_NEAR(mean(traced), truth, 0.02 * truth);
+}
+
 TEST(Links, RefuseARoomThatAbsorbsNothing)
 {
     try {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
+#include "scene/load/albedo_cap.h"
 
 using namespace lumel;
 using namespace lumel::test;
@@ -41,8 +42,10 @@ GltfBuilder with_black_and_white(const Json& info = {{"index", 0}}, const Json& 
     return builder;
 }
 
-float albedo_at(const Scene& scene, float u, float v)
+/// The file's colour, without a cap.
+float albedo_at(Scene scene, float u, float v)
 {
+    scene.max_albedo = 1.0f;
     const glm::vec2 texcoord[2] = {{u, v}, {0, 0}};
     return sample_material(scene, 0, texcoord, glm::vec4(1)).albedo.g;
 }
@@ -54,7 +57,7 @@ TEST(Materials, AMeshWithoutMaterialIsWhiteAndOpaque)
     const Scene scene = one_triangle().read();
     ASSERT_EQ(scene.materials.size(), 1u);
     const MaterialSample sample = sample_material(scene, 0, kNowhere, glm::vec4(1));
-    EXPECT_EQ(sample.albedo, glm::vec3(1));
+    EXPECT_EQ(sample.albedo, glm::vec3(kMaxAlbedo));
     EXPECT_EQ(sample.opacity, 1.0f);
     EXPECT_EQ(sample.emitted, glm::vec3(0));
     EXPECT_TRUE(is_uniform(scene.materials[0]));
@@ -101,6 +104,43 @@ TEST(Materials, OneThatIsTooBrightIsNamed)
     } catch (const Error& error) {
         EXPECT_TRUE(contains(error.what(), "/materials/0: \"ceiling panel\" emits"))
             << error.what();
+    }
+}
+
+TEST(Materials, ReflectAtMostTheMaximumInTheHueOfTheFile)
+{
+    Scene scene = with_material({{"name", "paper"},
+                                 {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.8, 0.5, 1}}}},
+                                 {"extensions",
+                                  {{"KHR_materials_transmission", {{"transmissionFactor", 0.5}}}}}})
+                      .read();
+    const auto reflected = [&] {
+        const MaterialSample sample = sample_material(scene, 0, kNowhere, glm::vec4(1));
+        return sample.opacity * sample.albedo;
+    };
+    const glm::vec3 color(1.0f, 0.8f, 0.5f);
+    EXPECT_EQ(reflected(), 0.5f * 0.95f * color);
+    const std::string before = scene.hash;
+    cap_albedo(scene, 1.0f);
+    EXPECT_EQ(reflected(), 0.5f * color);
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{});
+    EXPECT_NE(scene.hash, before);
+    cap_albedo(scene, 0.4f);
+    cap_albedo(scene, 0.4f);
+    EXPECT_EQ(reflected(), 0.5f * 0.4f * color);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_TRUE(contains(scene.warnings[0], "40 % (--max-albedo): \"paper\"")) << scene.warnings[0];
+    EXPECT_EQ(glm::vec3(scene.materials[0].base_color), color);
+}
+
+TEST(Materials, OfGlossReflectAtMostTheMaximumInAll)
+{
+    for (const float metallic : {0.0f, 0.3f, 1.0f}) {
+        const Scene scene =
+            with_material({{"pbrMetallicRoughness", {{"metallicFactor", metallic}}}})
+                .read(MaterialModel::glossy);
+        const MaterialSample sample = sample_material(scene, 0, kNowhere, glm::vec4(1));
+        EXPECT_FLOAT_EQ(sample.diffuse.g + sample.specular.g, kMaxAlbedo);
     }
 }
 
@@ -156,6 +196,7 @@ TEST(Materials, AlphaModesDecideOpacity)
 TEST(Materials, MetallicAndRoughnessTexelsAreLinear)
 {
     Scene scene;
+    scene.max_albedo = 1.0f;
     scene.textures.push_back({1, 1, {255, 51, 102, 255}});
     scene.materials.push_back({.roughness = 0.5f, .metallic_roughness_texture = {.texture = 0}});
     const MaterialSample sample = sample_material(scene, 0, kNowhere, glm::vec4(1));

@@ -20,6 +20,7 @@
 #include "results/files/folder.h"
 #include "results/files/movie.h"
 #include "results/preview/preview.h"
+#include "scene/load/albedo_cap.h"
 #include "scene/values/animation.h"
 
 namespace lumel {
@@ -132,6 +133,7 @@ private:
 Scene read_start(const std::string& path, const Animation& animation, const PlayOptions& options)
 {
     Scene scene = read_gltf(path);
+    cap_albedo(scene, scene.max_albedo);
     check_camera(scene, options.camera);
     scene.warnings.insert(scene.warnings.end(), animation.warnings.begin(),
                           animation.warnings.end());

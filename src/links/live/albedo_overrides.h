@@ -22,7 +22,7 @@ public:
     /// Sets the base colours of materials that are overridden.
     void paint(std::vector<Material>& materials) const;
 
-    const std::vector<glm::vec3>& albedo() const { return albedo_; }  ///< [N] 0…1
+    const std::vector<glm::vec3>& albedo() const { return albedo_; }  ///< [N] capped
 
 private:
     /// Albedo of a lumel per colour of its material: linear.
@@ -36,9 +36,9 @@ private:
     };
     Coat coat_of(const Scene& scene, const Atlas& atlas, int material) const;
 
-    std::vector<glm::vec3> unclamped_;  ///< [N]
-    std::vector<glm::vec3> albedo_;     ///< [N]
-    std::map<int, Coat> coats_;         ///< by material
+    std::vector<glm::vec3> uncapped_;  ///< [N], empty before the first override
+    std::vector<glm::vec3> albedo_;    ///< [N]
+    std::map<int, Coat> coats_;        ///< by material
 };
 
 }  // namespace lumel

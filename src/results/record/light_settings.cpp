@@ -101,6 +101,8 @@ Json light_settings(const LightOptions& options)
         settings["sun-angle"] = degrees_of(*options.sun_angle);
     if (options.light_radius > 0.0f)
         settings["light-radius"] = shortest(options.light_radius);
+    if (options.max_albedo != kMaxAlbedo)
+        settings["max-albedo"] = shortest(options.max_albedo);
     for (const LightProfile& profile : options.profiles)
         settings["ies"].push_back({{"light", profile.light}, {"file", absolute(profile.path)}});
     return settings;
@@ -133,6 +135,8 @@ LightOptions light_options_of(const JsonView& settings, const std::string& folde
         options.sun_angle = float(radians_in(settings, "sun-angle", kRightAngle));
     if (const auto radius = settings.find("light-radius"))
         options.light_radius = float(radius->number(0.0, kMax));
+    if (const auto albedo = settings.find("max-albedo"))
+        options.max_albedo = float(albedo->number(0.0, 1.0));
     settings.each("ies", [&](const JsonView& profile, std::size_t) {
         options.profiles.push_back(
             {profile.get("light").string(), path_in(folder, profile.get("file").string())});

@@ -10,6 +10,7 @@
 #include "base/core/files.h"
 #include "base/core/number.h"
 #include "base/json/json_view.h"
+#include "scene/load/albedo_cap.h"
 #include "scene/load/ies.h"
 #include "scene/sky/clear_sky.h"
 #include "scene/sky/overcast_sky.h"
@@ -177,6 +178,7 @@ void warn_of_left_out(Scene& scene)
 
 void add_lights(Scene& scene, const LightOptions& options)
 {
+    cap_albedo(scene, options.max_albedo);
     add_sky(scene, options);
     for (const LightProfile& profile : options.profiles)
         attach_profile(scene, profile);

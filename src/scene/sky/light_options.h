@@ -34,6 +34,7 @@ struct LightOptions {
     float light_radius = 0.0f;            ///< [m] for point and spot lights without one
     std::optional<float> sun_angle;  ///< [rad] for `sun`, and for directional lights without one
     std::vector<LightProfile> profiles;
+    float max_albedo = kMaxAlbedo;  ///< see cap_albedo()
 };
 
 /// Adds the lights to a scene or changes its own, and updates its hash. A sky replaces the file's.

@@ -83,6 +83,12 @@ float share_there(const Material& look, float alpha)
 
 }  // namespace
 
+glm::vec3 capped(const glm::vec3& albedo, float most)
+{
+    const float brightest = std::max({albedo.r, albedo.g, albedo.b});
+    return brightest > most ? albedo * (most / brightest) : albedo;
+}
+
 MaterialSample sample_material(const Scene& scene, int material,
                                const glm::vec2 texcoord[kTexcoordSets],
                                const glm::vec4& vertex_color)
@@ -91,13 +97,14 @@ MaterialSample sample_material(const Scene& scene, int material,
     const glm::vec4 texel = sample_texture(scene, look.base_color_texture, texcoord);
     const glm::vec4 base = look.base_color * vertex_color * texel;
     MaterialSample sample;
-    sample.albedo = glm::clamp(glm::vec3(base), 0.0f, 1.0f);
+    const glm::vec3 color = glm::clamp(glm::vec3(base), 0.0f, 1.0f);
+    sample.albedo = capped(color, scene.max_albedo);
     const float there = share_there(look, base.a);
     sample.opacity = there * (1.0f - look.transmission);
     sample.tint = glm::vec3(1.0f);
     if (const float glass = there * look.transmission; glass > 0.0f) {
-        const glm::vec3 color = glm::clamp(glm::vec3(look.base_color * texel), 0.0f, 1.0f);
-        sample.tint = (1.0f - there + glass * color) / (1.0f - there + glass);
+        const glm::vec3 tint = glm::clamp(glm::vec3(look.base_color * texel), 0.0f, 1.0f);
+        sample.tint = (1.0f - there + glass * tint) / (1.0f - there + glass);
     }
     // glTF's metals reflect their base colour specularly; other materials lose their specular share
     // from diffuse light.
@@ -106,8 +113,13 @@ MaterialSample sample_material(const Scene& scene, int material,
     const float metallic = std::clamp(look.metallic * gloss.b, 0.0f, 1.0f);
     const glm::vec3& f0 = look.dielectric_specular;
     sample.roughness = std::clamp(look.roughness * gloss.g, 0.0f, 1.0f);
-    sample.specular = glm::mix(f0, sample.albedo, metallic);
-    sample.diffuse = (1.0f - metallic) * (1.0f - std::max({f0.r, f0.g, f0.b})) * sample.albedo;
+    const glm::vec3 specular = glm::mix(f0, color, metallic);
+    const glm::vec3 diffuse = (1.0f - metallic) * (1.0f - std::max({f0.r, f0.g, f0.b})) * color;
+    const glm::vec3 both = diffuse + specular;
+    const float brightest = std::max({both.r, both.g, both.b});
+    const float scale = brightest > scene.max_albedo ? scene.max_albedo / brightest : 1.0f;
+    sample.specular = scale * specular;
+    sample.diffuse = scale * diffuse;
     sample.emitted =
         look.emitted * glm::vec3(sample_texture(scene, look.emissive_texture, texcoord));
     return sample;

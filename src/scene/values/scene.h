@@ -130,9 +130,14 @@ struct Camera {
 /// otherwise keep their defaults.
 enum class MaterialModel { diffuse, glossy };
 
+/// Maximum reflectance by default. Fresh snow and white plaster reflect less; light between
+/// surfaces of albedo 1 grows without bound.
+inline constexpr float kMaxAlbedo = 0.95f;
+
 struct Scene {
     std::string path;                              ///< source file
     MaterialModel model = MaterialModel::diffuse;  ///< material properties read
+    float max_albedo = kMaxAlbedo;                 ///< of the brightest channel, see capped()
     std::vector<Texture> textures;
     std::vector<Material> materials;  ///< the file's, then the default material if needed
     std::vector<Mesh> meshes;         ///< the file's; without primitives if not shown
@@ -169,11 +174,16 @@ glm::vec3 intensity_towards(const Scene& scene, const PunctualLight& light,
 /// max(min(1 - (r / range)⁴, 1), 0); 1 without one.
 float range_window(const PunctualLight& light, float distance);
 
-/// Material properties at a point. `texcoord`: TEXCOORD_n.
+/// Darkens an albedo whose brightest channel is above `most`, keeping its hue:
+/// ρ · min(1, most / max ρ).
+glm::vec3 capped(const glm::vec3& albedo, float most);
+
+/// Material properties at a point. `texcoord`: TEXCOORD_n. Reflectances are linear and capped at
+/// Scene::max_albedo. Glass reflects by its opacity only.
 struct MaterialSample {
-    glm::vec3 albedo;    ///< ρ, linear, clamped to 0…1: total reflectance, taken as diffuse
+    glm::vec3 albedo;    ///< ρ: total reflectance, taken as diffuse
     glm::vec3 diffuse;   ///< ρ_d for glossy methods
-    glm::vec3 specular;  ///< ρ_s; ρ_d + ρ_s ≤ 1
+    glm::vec3 specular;  ///< ρ_s; ρ_d + ρ_s is capped too
     float roughness;     ///< glTF's, 0…1
     float opacity;       ///< (opaque: 1; mask: 0 or 1; blend: alpha 0…1) × (1 - transmission)
     glm::vec3 tint;      ///< 0…1, of transmitted light: its share is 1 - opacity, times this

@@ -62,6 +62,7 @@ void add_light(Fingerprint& hash, const PunctualLight& light)
 std::string hash_scene(const Scene& scene)
 {
     Fingerprint hash;
+    hash.add(scene.max_albedo);
     for (const Texture& texture : scene.textures) {
         hash.add(texture.width);
         hash.add(texture.height);

@@ -43,7 +43,8 @@ void set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance, const g
 
 InstanceEdits::InstanceEdits(const Scene& scene, const std::vector<std::uint32_t>& movers,
                              bool still)
-    : movers_(flags_of(scene, movers, still)),
+    : max_albedo_(scene.max_albedo),
+      movers_(flags_of(scene, movers, still)),
       requested_(scene.instances.size()),
       emission_factor_(scene.instances.size(), glm::vec3(1.0f)),
       reflectance_factor_(scene.instances.size(), glm::vec3(1.0f))
@@ -85,8 +86,7 @@ Lumels InstanceEdits::scaled(Lumels lumels) const
 {
     for (Lumel& lumel : lumels.lumels) {
         lumel.emission *= emission_factor_[lumel.instance];
-        lumel.albedo =
-            glm::min(lumel.albedo * reflectance_factor_[lumel.instance], glm::vec3(1.0f));
+        lumel.albedo = capped(lumel.albedo * reflectance_factor_[lumel.instance], max_albedo_);
     }
     return lumels;
 }

@@ -28,10 +28,11 @@ public:
     /// such instance or a factor is negative.
     void set_emission(std::uint32_t instance, const glm::vec3& factor);
     void set_reflectance(std::uint32_t instance, const glm::vec3& factor);
-    /// The lumels with these factors; reflectances are clamped to 0…1.
+    /// The lumels with these factors; reflectances are capped at Scene::max_albedo.
     Lumels scaled(Lumels lumels) const;
 
 private:
+    float max_albedo_;
     std::vector<char> movers_;
     std::vector<std::optional<glm::mat4>> requested_;              ///< [instances]
     std::vector<glm::vec3> emission_factor_, reflectance_factor_;  ///< [instances]

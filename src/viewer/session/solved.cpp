@@ -29,6 +29,7 @@ StandingScene ViewSession::standing(MaterialModel model) const
             read.materials[m].base_color = scene.materials[m].base_color;
             read.materials[m].emitted = scene.materials[m].emitted;
         }
+        read.max_albedo = scene.max_albedo;
         read.profiles = std::move(scene.profiles);
         read.lights = std::move(scene.lights);
         read.sky = std::move(scene.sky);

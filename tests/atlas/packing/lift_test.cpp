@@ -240,7 +240,8 @@ TEST(Lift, UsesTheGeometricNormalWhereVertexNormalsAreNonsense)
 
 TEST(Lift, AveragesATextureOverTheLumel)
 {
-    const Scene scene = textured_quad(64, 64, checkerboard(64, 255));
+    Scene scene = textured_quad(64, 64, checkerboard(64, 255));
+    scene.max_albedo = 1.0f;
     for (const Lumel& lumel :
          make_lumels(scene, make_atlas(scene, {.texels_per_metre = 16.0f})).lumels)
         for (int c = 0; c < 3; ++c)

@@ -179,6 +179,7 @@ TEST(BakedLight, AsideThatIsStoppedHasNone)
 TEST(BakedLight, OfARoomWithoutAbsorptionIsRefused)
 {
     Scene scene = read_gltf(support::source_path("scenes/furnace-0.9.gltf"));
+    scene.max_albedo = 1.0f;
     LiveLinks live(lay_out(std::move(scene), {.size = 32}, {}), {.rays = 16});
     live.set_albedo(0, glm::vec3(1.0f));
     BakeAside aside(live.standing(), live.lumels(), {.seed = 1}, kTarget);
