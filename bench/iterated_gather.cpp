@@ -63,8 +63,8 @@ std::uint32_t warm_up_of(const Lumels& lumels)
 IteratedGather::IteratedGather(const SolveScene& place, SampleRule rule, std::uint32_t seed)
     : place_(place),
       surfaces_(place.scene),
-      lights_(place.scene, place.rays, surfaces_, place.rays.ray_offset()),
-      starts_(place.scene, place.lumels, rule, place.rays.ray_offset()),
+      lights_(place.scene, place.rays, surfaces_),
+      starts_(place.scene, place.rays, place.lumels, rule),
       hits_(place.scene, place.atlas, place.lumels),
       seed_(seed),
       warm_up_(warm_up_of(place.lumels))
@@ -111,9 +111,8 @@ IteratedGather::Seen IteratedGather::look(PathVertex vertex, const PathSamples& 
             seen.bounced += weight * present_[j];
             return seen;
         }
-        const float ray_offset = place_.rays.ray_offset();
-        vertex = {vertex.position + direction * std::max(0.0f, hit.distance - ray_offset) +
-                      ray_offset * shading.geometric,
+        vertex = {vertex.position + direction * std::max(0.0f, hit.distance - hit.ray_offset) +
+                      hit.ray_offset * shading.geometric,
                   shading.geometric, Brdf(shading.normal)};
     }
     return seen;
@@ -135,8 +134,7 @@ void IteratedGather::pass()
             const std::uint32_t own = PathSamples::hash(key, std::uint32_t(i));
             for (std::uint32_t ray = first_ray; ray < first_ray + kRays; ++ray) {
                 const PathSamples samples(own, ray);
-                const Seen seen =
-                    look(starts_.start(lumels[i], samples.stratified(kStartPair)), samples);
+                const Seen seen = look(starts_.start(i, samples.stratified(kStartPair)), samples);
                 direct_.light[i] += seen.direct;
                 bounced_.light[i] += seen.bounced;
             }

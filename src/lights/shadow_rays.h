@@ -10,14 +10,12 @@
 
 namespace lumel {
 
-/// Segment from a point to a source sample, shortened by ray_offset [m].
-inline RaySpan ray_towards(const SourceSample& sample, const RayOrigin& start, float ray_offset,
-                           std::uint32_t seed)
+/// Segment from a point to just before a source sample.
+inline RaySpan ray_towards(const SourceSample& sample, const RayOrigin& start, std::uint32_t seed)
 {
     if (std::isinf(sample.distance))
         return ray_out(start.position, sample.direction, seed);
-    return ray_between(start.position, start.position + sample.distance * sample.direction,
-                       ray_offset, seed);
+    return {start.position, 0.0f, sample.direction, sample.distance - sample.ray_offset, seed};
 }
 
 /// Transmittance of that segment, 0…1; no ray is traced to a sample of no light.
@@ -26,7 +24,7 @@ inline glm::vec3 transmittance_to(const RayScene& rays, const SourceSample& samp
 {
     return sample.irradiance == glm::vec3(0.0f)
                ? glm::vec3(0.0f)
-               : rays.transmittance(ray_towards(sample, start, rays.ray_offset(), seed));
+               : rays.transmittance(ray_towards(sample, start, seed));
 }
 
 class ShadowRays {

@@ -199,6 +199,9 @@ void LightSources::add_surface(const Surfaces& surfaces, std::size_t index)
         const glm::vec3 across = glm::cross(triangle.corner[1] - triangle.corner[0],
                                             triangle.corner[2] - triangle.corner[0]);
         triangle.area = 0.5f * glm::length(across);
+        triangle.reach = longest_edge(triangle.corner[0], triangle.corner[1], triangle.corner[2]);
+        for (const glm::vec3& corner : triangle.corner)
+            triangle.reach = std::max(triangle.reach, largest_coordinate(corner));
         float mean = 0.0f;
         if (surface.uniform)
             mean = power_per_area(surface.look);
@@ -398,6 +401,7 @@ SourceSample LightSources::from_triangle(const Source& source, const Triangle& t
         const float there = std::abs(glm::dot(triangle.normal, sample.direction));
         density = there > 0.0f ? squared / (there * triangle.area) : 0.0f;
     }
+    sample.ray_offset = ray_offset_for(std::max(triangle.reach, sample.distance));
     if (!(sample.distance > 0.0f) || !(density > 0.0f) || (height > 0.0f && !source.double_sided))
         return {};
     glm::vec3 emission = source.emission;
@@ -503,6 +507,8 @@ SourceSample LightSources::from_lamp(const PunctualLight& light, const RayOrigin
         const float inside = light.radius * light.radius - (squared - along * along);
         sample.distance = along - std::sqrt(std::max(inside, 0.0f));
     }
+    sample.ray_offset = ray_offset_for(
+        std::max(largest_coordinate(glm::vec3(light.transform[3])), sample.distance));
     const float window = range_window(light, sample.distance);
     const float cosine = start.cosine(sample.direction);
     if (window > 0.0f && cosine > 0.0f)

@@ -18,6 +18,7 @@ namespace lumel {
 struct SourceSample {
     glm::vec3 direction{0.0f};   ///< unit, towards the source
     float distance = 0.0f;       ///< [m], infinite for skies and suns
+    float ray_offset = 0.0f;     ///< [m] by which shadow rays end before it
     glm::vec3 irradiance{0.0f};  ///< estimate [lx] at the surface, cosine included
     /// Total unoccluded irradiance of the source [lx], if known exactly.
     std::optional<glm::vec3> open = {};
@@ -78,6 +79,7 @@ private:
         glm::vec3 corner[3];  ///< counter-clockwise from the side that emits
         glm::vec3 normal;     ///< unit
         float area;           ///< [m²]
+        float reach;          ///< [m], see ray_offset_for()
         float power;          ///< area × mean emission, luminance
         std::size_t surface;
         std::uint32_t index;  ///< in its primitive

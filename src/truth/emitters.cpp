@@ -85,6 +85,9 @@ void Emitters::add(std::size_t surface_index, std::vector<double>& powers)
         emitter.corner = corner(0);
         emitter.edge_u = corner(1) - emitter.corner;
         emitter.edge_v = corner(2) - emitter.corner;
+        emitter.reach = longest_edge(corner(0), corner(1), corner(2));
+        for (std::uint32_t k = 0; k < 3; ++k)
+            emitter.reach = std::max(emitter.reach, largest_coordinate(corner(k)));
         const glm::vec3 across = glm::cross(emitter.edge_u, emitter.edge_v);
         const float twice_area = glm::length(across);
         const float mean = mean_luminance(*surfaces_, surface, t);
@@ -115,6 +118,7 @@ EmitterPoint Emitters::sample(const glm::vec2& at) const
     point.luminance = look.emitted * look.opacity;
     point.density = emitter.density;
     point.double_sided = surface.double_sided;
+    point.reach = emitter.reach;
     return point;
 }
 

@@ -17,6 +17,7 @@ struct EmitterPoint {
     glm::vec3 luminance{0.0f};  ///< emitted × opacity [cd/m²]
     float density = 0.0f;       ///< [1/m²]
     bool double_sided = false;  ///< emits from its back as well
+    float reach = 0.0f;         ///< of its triangle [m], see ray_offset_for()
 };
 
 class Emitters {
@@ -45,6 +46,7 @@ private:
         glm::vec3 edge_v{0.0f};
         glm::vec3 normal{0.0f};
         float density = 0.0f;
+        float reach = 0.0f;
     };
 
     void add(std::size_t surface, std::vector<double>& powers);

@@ -50,13 +50,12 @@ bool is_uneven(const Sky& sky)
 
 }  // namespace
 
-Lights::Lights(const Scene& scene, const RayScene& rays, const Surfaces& surfaces, float ray_offset)
+Lights::Lights(const Scene& scene, const RayScene& rays, const Surfaces& surfaces)
     : rays_(rays),
       surfaces_(surfaces),
       sky_(scene.sky),
       emitters_(surfaces),
-      lamps_(scene),
-      ray_offset_(ray_offset)
+      lamps_(scene)
 {
     if (is_uneven(sky_))
         sky_sampler_.emplace(sky_);
@@ -67,15 +66,17 @@ glm::vec3 Lights::from_emitter(const PathVertex& vertex, const BounceSamples& sa
     const EmitterPoint emitter = emitters_.sample(samples.point(Draw::emitter));
     const glm::vec3 offset = emitter.position - vertex.position;
     const float squared = glm::dot(offset, offset);
-    const glm::vec3 direction = offset / std::sqrt(squared);
+    const float distance = std::sqrt(squared);
+    const glm::vec3 direction = offset / distance;
     const float cos_here = cosine_above(vertex, direction);
     const float cos_front = -glm::dot(emitter.normal, direction);
     const float cos_there = emitter.double_sided ? std::abs(cos_front) : cos_front;
     if (!(cos_here > 0.0f) || !(cos_there > 0.0f))
         return glm::vec3(0.0f);
 
+    const float ray_offset = ray_offset_for(std::max(emitter.reach, distance));
     const glm::vec3 lifted =
-        emitter.position + (cos_front > 0.0f ? ray_offset_ : -ray_offset_) * emitter.normal;
+        emitter.position + (cos_front > 0.0f ? ray_offset : -ray_offset) * emitter.normal;
     const glm::vec3 transmittance =
         rays_.transmittance(vertex.position, lifted, 0.0f, samples.bits(Draw::emitter));
     if (transmittance == glm::vec3(0.0f))

@@ -18,9 +18,8 @@ namespace lumel {
 /// Emissive surfaces, the sky and lamps. Thread-safe.
 class Lights {
 public:
-    /// All arguments must outlive this, unmoved. ray_offset: distance of points from their surface
-    /// [m].
-    Lights(const Scene& scene, const RayScene& rays, const Surfaces& surfaces, float ray_offset);
+    /// All arguments must outlive this, unmoved.
+    Lights(const Scene& scene, const RayScene& rays, const Surfaces& surfaces);
 
     /// One estimate of ∫ s L cosθ dω [lm/m²] by shadow rays: lamps in full, emitters and the sky
     /// with their weight. s is π f_r / ρ, 1 for a diffuse surface.
@@ -56,7 +55,6 @@ private:
     Emitters emitters_;
     Lamps lamps_;
     std::optional<SkySampler> sky_sampler_;  ///< empty: the sky is hit by chance only
-    float ray_offset_;
 };
 
 }  // namespace lumel

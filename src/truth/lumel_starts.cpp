@@ -6,11 +6,11 @@
 
 namespace lumel {
 
-LumelStarts::LumelStarts(const Scene& scene, const Lumels& lumels, SampleRule rule,
-                         float ray_offset)
+LumelStarts::LumelStarts(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                         SampleRule rule)
     : lumels_(lumels),
       rule_(rule),
-      ray_offset_(ray_offset)
+      ray_offset_(rays.ray_offset())
 {
     for (const Instance& instance : scene.instances) {
         transforms_.push_back(instance.transform);
@@ -18,8 +18,9 @@ LumelStarts::LumelStarts(const Scene& scene, const Lumels& lumels, SampleRule ru
     }
 }
 
-PathVertex LumelStarts::start(const Lumel& lumel, const glm::vec2& at) const
+PathVertex LumelStarts::start(std::size_t i, const glm::vec2& at) const
 {
+    const Lumel& lumel = lumels_.lumels[i];
     glm::vec3 position = lumel.position;
     glm::vec3 normal = lumel.normal;
     glm::vec3 geometric = lumel.normal;
@@ -38,11 +39,15 @@ PathVertex LumelStarts::start(const Lumel& lumel, const glm::vec2& at) const
     // Also shifts towards the centre, so that no origin is behind a wall that touches the lumel.
     const glm::mat4& transform = transforms_[lumel.instance];
     const glm::vec3 world(transform * glm::vec4(position, 1.0f));
-    const glm::vec3 inward = glm::vec3(transform * glm::vec4(lumel.position, 1.0f)) - world;
+    const glm::vec3 centre(transform * glm::vec4(lumel.position, 1.0f)), inward = centre - world;
     const float distance = glm::length(inward);
-    glm::vec3 lifted = world + ray_offset_ * geometric;
+    const float ray_offset =
+        lumels_.edge.empty()
+            ? ray_offset_
+            : ray_offset_for(std::max(largest_coordinate(centre), lumels_.edge[i]));
+    glm::vec3 lifted = world + ray_offset * geometric;
     if (distance > 0.0f)
-        lifted += inward * (std::min(ray_offset_, 0.5f * distance) / distance);
+        lifted += inward * (std::min(ray_offset, 0.5f * distance) / distance);
     return {lifted, geometric, Brdf(glm::normalize(normal_transform * normal))};
 }
 

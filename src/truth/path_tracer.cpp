@@ -50,19 +50,18 @@ bool goes_on(glm::vec3& throughput, float at)
 PathTracer::PathTracer(const Scene& scene, const RayScene& rays, int max_bounces, Parts parts)
     : rays_(rays),
       surfaces_(scene),
-      ray_offset_(rays.ray_offset()),
-      lights_(scene, rays, surfaces_, ray_offset_),
+      lights_(scene, rays, surfaces_),
       first_bounce_(parts == Parts::indirect ? 1 : 0),
       last_bounce_(parts == Parts::direct ? 0 : max_bounces)
 {
 }
 
 /// The path vertex at a hit.
-PathVertex PathTracer::land(const glm::vec3& origin, const glm::vec3& direction, float distance,
-                            const Shading& shading) const
+PathVertex PathTracer::land(const glm::vec3& origin, const glm::vec3& direction, const RayHit& hit,
+                            const Shading& shading)
 {
-    return {origin + direction * std::max(0.0f, distance - ray_offset_) +
-                ray_offset_ * shading.geometric,
+    return {origin + direction * std::max(0.0f, hit.distance - hit.ray_offset) +
+                hit.ray_offset * shading.geometric,
             shading.geometric, Brdf(shading.reflectance, shading.normal, -direction)};
 }
 
@@ -98,7 +97,7 @@ glm::vec3 PathTracer::reflected(PathVertex vertex, const PathSamples& path) cons
             gathered += kPi * throughput * lights_.met(hit, shading, direction, response.density);
 
         // Continues from there.
-        vertex = land(vertex.position, direction, hit.distance, shading);
+        vertex = land(vertex.position, direction, hit, shading);
         throughput *= vertex.brdf.reflectance();
         if (!goes_on(throughput, samples.number(Draw::roulette)))
             break;
@@ -115,7 +114,7 @@ std::optional<glm::vec3> PathTracer::radiance(const glm::vec3& origin, const glm
         return sky ? hit.tint * *sky : sky;
     }
     const Shading shading = surfaces_.shade(hit);
-    const PathVertex vertex = land(origin, direction, hit.distance, shading);
+    const PathVertex vertex = land(origin, direction, hit, shading);
     if (vertex.brdf.reflectance() == glm::vec3(0.0f))
         return hit.tint * shading.luminance;
     return hit.tint * (shading.luminance + reflected(vertex, samples) / kPi);

@@ -29,16 +29,12 @@ public:
     std::optional<glm::vec3> radiance(const glm::vec3& origin, const glm::vec3& direction,
                                       const PathSamples& samples) const;
 
-    /// Distance of path origins from their surface [m].
-    float ray_offset() const { return ray_offset_; }
-
 private:
-    PathVertex land(const glm::vec3& origin, const glm::vec3& direction, float distance,
-                    const Shading& shading) const;
+    static PathVertex land(const glm::vec3& origin, const glm::vec3& direction, const RayHit& hit,
+                           const Shading& shading);
 
     const RayScene& rays_;
     Surfaces surfaces_;
-    float ray_offset_;
     Lights lights_;
     int first_bounce_;  ///< first bounce whose light counts
     int last_bounce_;

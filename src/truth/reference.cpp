@@ -20,14 +20,13 @@ std::vector<glm::vec3> reference_irradiance(const Scene& scene, const RayScene& 
                                             const std::function<bool(double)>& progress)
 {
     const PathTracer tracer(scene, rays, options.max_bounces, options.parts);
-    const LumelStarts starts(scene, lumels, options.rule, tracer.ray_offset());
+    const LumelStarts starts(scene, rays, lumels, options.rule);
     const std::uint32_t key = PathSamples::hash(options.seed, kMapKey);
     const auto estimate = [&](std::size_t i, std::uint32_t sample) {
-        const Lumel& lumel = lumels.lumels[i];
-        if (lumel.flags & kLumelBuried)
+        if (lumels.lumels[i].flags & kLumelBuried)
             return glm::vec4(0.0f);
         const PathSamples samples(PathSamples::hash(key, std::uint32_t(i)), sample);
-        const PathVertex vertex = starts.start(lumel, samples.stratified(kStartPair));
+        const PathVertex vertex = starts.start(i, samples.stratified(kStartPair));
         return glm::vec4(tracer.reflected(vertex, samples), 0.0f);
     };
     const std::vector<glm::vec4> means =

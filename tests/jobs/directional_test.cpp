@@ -500,16 +500,15 @@ std::vector<glm::vec3> tilted_truth(const SolveScene& world, const std::vector<s
                                     const std::vector<glm::vec3>& own_normals, float degrees)
 {
     constexpr int kSamples = 256;
-    const LumelStarts starts(world.scene, world.lumels, SampleRule::area, world.rays.ray_offset());
+    const LumelStarts starts(world.scene, world.rays, world.lumels, SampleRule::area);
     std::vector<glm::vec3> normals;
     for (const std::size_t i : chosen)
         for (const glm::vec3& normal : tilted(own_normals[i], degrees))
             normals.push_back(normal);
     return support::path_irradiance(world.scene, world.rays, normals.size(), kSamples,
                                     [&](std::size_t place, const PathSamples& samples) {
-                                        PathVertex vertex =
-                                            starts.start(world.lumels.lumels[chosen[place / 8]],
-                                                         samples.stratified(kStartPair));
+                                        PathVertex vertex = starts.start(
+                                            chosen[place / 8], samples.stratified(kStartPair));
                                         vertex.brdf = Brdf(normals[place]);
                                         return vertex;
                                     });

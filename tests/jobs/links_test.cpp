@@ -70,6 +70,53 @@ TEST(Links, RefuseARoomThatAbsorbsNothing)
     }
 }
 
+/// A glowing wall and a floor that meet at a right angle, each 1 m², and a black ground far below.
+Scene wall_and_floor(float metres_of_ground)
+{
+    Scene scene;
+    support::add_quad(scene, {.edge_u = {0, 0, 1}, .edge_v = {1, 0, 0}, .albedo = glm::vec3(0)});
+    support::add_quad(scene, {.edge_u = {0, 1, 0},
+                              .edge_v = {0, 0, 1},
+                              .albedo = glm::vec3(0),
+                              .emission = glm::vec3(1)});
+    if (const float side = metres_of_ground; side > 0.0f) {
+        support::add_quad(scene, {.corner = {-0.5f * side, -1, -0.5f * side},
+                                  .edge_u = {0, 0, side},
+                                  .edge_v = {side, 0, 0},
+                                  .albedo = glm::vec3(0)});
+        scene.instances.back().name = "ground";
+    }
+    return scene;
+}
+
+/// The wall's light is that of its form factor, however far the scene extends: rays start close to
+/// small surfaces.
+TEST(Links, AndPathsLightASmallRoomOnAGroundOfAKilometreAsWithoutIt)
+{
+    constexpr double kFormFactor = 0.200044;
+    for (const float metres : {0.0f, 1000.0f}) {
+        const SolveScene world(
+            wall_and_floor(metres),
+            AtlasOptions{.texels_per_metre = 16.0f, .densities = {{"ground", 0.02f}}});
+        const auto mean = [&](const std::vector<glm::vec3>& light) {
+            double sum = 0.0, area = 0.0;
+            for (std::size_t i = 0; i < light.size(); ++i)
+                if (const Lumel& lumel = world.lumels.lumels[i]; lumel.instance == 0) {
+                    sum += double(lumel.area) * double(light[i].g);
+                    area += double(lumel.area);
+                }
+            return sum / area;
+        };
+        EXPECT_NEAR(mean(support::solve_scene(world, links(0.02)).irradiance), kFormFactor,
+                    0.002 * kFormFactor)
+            << metres;
+        EXPECT_NEAR(mean(reference_irradiance(world.scene, world.rays, world.lumels,
+                                              {.samples_per_lumel = 256})),
+                    kFormFactor, 0.005 * kFormFactor)
+            << metres;
+    }
+}
+
 /// Large enough for passes of several steps.
 TEST(Links, GoOnFromTheStateAfterAnyStepToTheSameLight)
 {

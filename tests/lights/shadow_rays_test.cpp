@@ -12,7 +12,7 @@
 namespace lumel {
 namespace {
 
-constexpr float kHeight = 1.0f, kEmission = 3.0f, kOffset = 1e-4f;
+constexpr float kHeight = 1.0f, kEmission = 3.0f;
 
 /// What side² shadow rays find of a plate of 1 m × 1 m above the point, behind a screen half as
 /// high that covers all directions x / z from `low` to `high`.
@@ -31,7 +31,7 @@ SourceEstimate estimate(float low, float high, int side)
     ShadowRays shadows;
     support::for_square(side, [&](const glm::vec2& at) {
         const SourceSample sample = sources.sample(0, start, at);
-        shadows.add(sample, ray_towards(sample, start, kOffset, shadows.size()));
+        shadows.add(sample, ray_towards(sample, start, shadows.size()));
     });
     shadows.cast(*cast_on_host(rays));
     SourceEstimate found;
@@ -69,7 +69,7 @@ TEST(ShadowRays, AreNotCastWhereNothingIsSent)
     ShadowRays shadows;
     const RayOrigin start = support::upward();
     const SourceSample dark{.direction = {0.0f, 0.0f, 1.0f}, .distance = 1.0f};
-    shadows.add(dark, ray_towards(dark, start, kOffset, 0));
+    shadows.add(dark, ray_towards(dark, start, 0));
     Scene scene;
     support::add_quad(scene, support::plate_above({-1, -1}, {1, 1}, 2.0f, glm::vec3(0.0f)));
     const RayScene rays(scene);

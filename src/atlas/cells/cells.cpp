@@ -136,7 +136,8 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
             if (lumels.lumels[i].flags & kLumelBuried)
                 continue;
             const CellPoints points = cell_points(world, cells, i);
-            const float ray_offset = std::max(kAboveCell * world[i].size, rays.ray_offset());
+            const float ray_offset =
+                std::max(kAboveCell * world[i].size, ray_offset_for(world[i].reach));
             const std::uint32_t own =
                 PathSamples::hash(seed, lumel_key(lumels.lumels[i], std::uint32_t(lumels.width)));
             Joined joined;

@@ -24,12 +24,13 @@ RayOrigin RayOrigins::start(std::size_t i, const glm::vec2& at) const
         geometric = -geometric;  // the instance mirrors
 
     // Also shifted towards the centre, so that no origin is behind a wall that touches the lumel.
-    RayOrigin start{point.position + ray_offset_ * geometric, point.normal, geometric,
+    const float ray_offset = ray_offset_for(lumel.reach);
+    RayOrigin start{point.position + ray_offset * geometric, point.normal, geometric,
                     cells_ ? cells_->cell(i, point.position) : 0u};
     const glm::vec3 inward = lumel.centre - point.position;
     const float distance = glm::length(inward);
     if (distance > 0.0f)
-        start.position += inward * (std::min(ray_offset_, 0.5f * distance) / distance);
+        start.position += inward * (std::min(ray_offset, 0.5f * distance) / distance);
     return start;
 }
 

@@ -34,10 +34,9 @@ class RayOrigins {
 public:
     /// Pointers must outlive this. centre: all rays start at the lumel's centre. Without cells, all
     /// origins are in cell 0.
-    RayOrigins(const WorldLumels& world, const Cells* cells, float ray_offset, bool centre)
+    RayOrigins(const WorldLumels& world, const Cells* cells, bool centre)
         : world_(&world),
           cells_(cells),
-          ray_offset_(ray_offset),
           centre_(centre)
     {
     }
@@ -48,7 +47,6 @@ public:
 private:
     const WorldLumels* world_;
     const Cells* cells_;
-    float ray_offset_;  ///< [m]
     bool centre_;
 };
 

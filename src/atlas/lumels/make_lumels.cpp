@@ -186,6 +186,7 @@ double diameter(const std::vector<glm::dvec3>& points)
 struct Lifted {
     Lumel lumel{};
     Gloss gloss{};
+    float edge = 0.0f;
     std::vector<Piece> pieces;
     float coverage = 0.0f;
 };
@@ -252,8 +253,12 @@ Lifted lift_texel(const Scene& scene, const Atlas& atlas, const std::vector<Touc
     double area = 0.0;
     glm::dvec3 position(0.0), normal(0.0);
     std::vector<glm::dvec3> corners;
+    double edge = 0.0;
     for (const Part& part : parts) {
         const glm::dvec2 centre = part.polygon.centroid();
+        for (int k = 0; k < 3; ++k)
+            edge = std::max(edge, glm::length(to_world * (part.triangle.corner[(k + 1) % 3] -
+                                                          part.triangle.corner[k])));
         area += part.world_area;
         position += part.world_area * part.position(centre);
         normal += part.world_area * normal_at(part, centre);
@@ -266,6 +271,7 @@ Lifted lift_texel(const Scene& scene, const Atlas& atlas, const std::vector<Touc
         return result;
 
     result.pieces = cut_into_pieces(parts, x, y);
+    result.edge = float(edge);
     result.coverage = float(std::min(covered, 1.0) * look.opacity);
     Lumel& lumel = result.lumel;
     // The centroid of a bent lumel may be off the surface, even inside the wall.
@@ -293,6 +299,7 @@ void append_front(const Lifted& lifted, Lumels& lumels)
     lumel.piece_count = std::uint32_t(lifted.pieces.size());
     lumels.lumels.push_back(lumel);
     lumels.gloss.push_back(lifted.gloss);
+    lumels.edge.push_back(lifted.edge);
     lumels.pieces.insert(lumels.pieces.end(), lifted.pieces.begin(), lifted.pieces.end());
 }
 
@@ -309,6 +316,7 @@ void append_backs(std::size_t first, Lumels& lumels)
         lumels.lumels.push_back(lumel);
         lumels.coverage[map_texel(lumels, lumel)] = lumels.coverage[lumel.texel];
         lumels.gloss.push_back(Gloss(lumels.gloss[i]));
+        lumels.edge.push_back(float(lumels.edge[i]));
         for (std::uint32_t p = 0; p < lumel.piece_count; ++p) {
             Piece piece = lumels.pieces[front_piece + p];
             std::swap(piece.edge_u, piece.edge_v);

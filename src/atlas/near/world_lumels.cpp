@@ -12,8 +12,8 @@ namespace {
 
 /// Ray offset relative to the lumel's size: too small to see past anything.
 constexpr float kLift = 1e-4f;
-/// Minimum ray offset relative to the largest coordinate: a few roundings of a float.
-constexpr float kLiftOfExtent = 1e-6f;
+/// Minimum ray offset relative to the reach of the triangles: a few roundings of a float.
+constexpr float kLiftOfReach = 1e-6f;
 /// Maximum distance of a flat lumel's corners from its plane, relative to its size.
 constexpr float kFlat = 1e-4f;
 /// Opacities above this are 1 by rounding.
@@ -46,8 +46,8 @@ WorldLumels::WorldLumels(const Scene& scene, const RayScene& rays, const Lumels&
 
 void WorldLumels::fit(const RayScene& rays)
 {
-    const glm::vec3 reach = glm::max(glm::abs(rays.low()), glm::abs(rays.high()));
-    extent_ = std::max({reach.x, reach.y, reach.z});
+    extent_ = std::max({largest_coordinate(rays.low()), largest_coordinate(rays.high()),
+                        glm::distance(rays.low(), rays.high())});
 }
 
 void WorldLumels::place(const Scene& scene, const Lumels& lumels,
@@ -76,7 +76,9 @@ void WorldLumels::place(std::size_t i, const Lumels& lumels, const Placement& pl
     world.centre = glm::vec3(placement.points * glm::vec4(lumel.position, 1.0f));
     world.normal = glm::normalize(placement.normals * lumel.normal);
     world.size = lumel.size;
-    world.ray_offset = std::max(kLift * lumel.size, kLiftOfExtent * extent_);
+    world.reach =
+        lumels.edge.empty() ? extent_ : std::max(largest_coordinate(world.centre), lumels.edge[i]);
+    world.ray_offset = std::max(kLift * lumel.size, kLiftOfReach * world.reach);
     place_facets(i, lumel, &lumels.pieces[lumel.first_piece], placement);
 }
 

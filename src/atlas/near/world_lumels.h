@@ -31,7 +31,8 @@ struct WorldLumel {
     glm::vec3 centre;               ///< [m]
     glm::vec3 normal;               ///< unit, mean over the lumel
     float size = 0.0f;              ///< [m]
-    float ray_offset = 0.0f;        ///< [m] offset of ray origins above the surface
+    float reach = 0.0f;             ///< [m] of its triangles, see ray_offset_for()
+    float ray_offset = 0.0f;        ///< [m] offset of ray origins for exact form factors
     float opacity = 1.0f;           ///< area / area of its facets: below 1 if cut out
     bool flat = false;              ///< all facets lie in the plane through `centre` with `normal`
     std::uint32_t first_facet = 0;  ///< also index of the first piece
@@ -48,7 +49,7 @@ class WorldLumels {
 public:
     WorldLumels(const Scene& scene, const RayScene& rays, const Lumels& lumels);
 
-    /// Sets the ray offset of lumels that are placed from now on, by the scene's current size.
+    /// Sets the scene's current size, for lumels of unknown triangles that are placed from now on.
     void fit(const RayScene& rays);
 
     /// Updates some lumels to the current transforms of their instances.
@@ -89,7 +90,7 @@ private:
     void place_facets(std::size_t i, const Lumel& lumel, const Piece* local,
                       const Placement& placement);
 
-    float extent_;                                ///< largest coordinate [m]
+    float extent_;  ///< [m] reach of the whole scene, for lumels of unknown triangles
     std::vector<std::vector<GaussPoint>> rules_;  ///< [count - 1] rule of that many points
     std::vector<WorldLumel> lumels_;
     std::vector<Piece> pieces_;

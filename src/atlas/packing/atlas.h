@@ -90,6 +90,7 @@ struct Lumels {
     int height = 0;
     std::vector<Lumel> lumels;    ///< [N] front lumels, and back lumels of double-sided surfaces
     std::vector<Gloss> gloss;     ///< [N] gloss of their materials
+    std::vector<float> edge;      ///< [N] longest edge of the triangles below, world [m]; or empty
     std::vector<Piece> pieces;    ///< [P]
     std::vector<float> coverage;  ///< [height][width] covered share × opacity, 0…1
     std::vector<glm::ivec2> back_shift;  ///< as in Atlas

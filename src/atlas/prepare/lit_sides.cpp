@@ -71,7 +71,7 @@ public:
     double area() const { return sums_.empty() ? 0.0 : sums_.back(); }  ///< [m²]
 
     /// Start of walk `index` of `count`, offset from the side.
-    Place start(bool back, std::uint32_t index, std::uint32_t count, float ray_offset) const
+    Place start(bool back, std::uint32_t index, std::uint32_t count) const
     {
         const double at = (double(index) + 0.5) / double(count) * area();
         const auto found = std::lower_bound(sums_.begin(), sums_.end(), at);
@@ -85,6 +85,8 @@ public:
         const glm::mat3 linear(scene_.instances[triangle.instance].transform);
         const bool turned = back != (glm::determinant(linear) < 0.0f);
         const glm::vec3 normal = glm::normalize((turned ? -1.0f : 1.0f) * glm::cross(b - a, c - a));
+        const float ray_offset =
+            ray_offset_for(std::max(largest_coordinate(point), longest_edge(a, b, c)));
         return {glm::mix(point, (a + b + c) / 3.0f, kInset) + ray_offset * normal, normal};
     }
 
@@ -118,7 +120,8 @@ bool sees_lamp(const Scene& scene, const RayScene& rays, const Place& at, std::u
     const glm::vec3 place(lamp.transform[3]), away = at.position - place;
     return glm::dot(at.normal, away) < 0.0f &&
            intensity_towards(scene, lamp, glm::normalize(away)) != glm::vec3(0.0f) &&
-           rays.sees(at.position, place, rays.ray_offset(), seed);
+           rays.sees(at.position, place,
+                     ray_offset_for(std::max(largest_coordinate(place), glm::length(away))), seed);
 }
 
 /// Follows a walk to its end. Returns true if it finds light.
@@ -235,8 +238,7 @@ std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
         for (std::uint32_t walk = 0; walk < walks && wanted > 0; ++walk) {
             const std::uint32_t key =
                 mixed_bits(2 * std::uint32_t(chart) + back) + walk * kMaxSteps;
-            wanted -= finds_light(scene, rays,
-                                  sides[chart].start(back, walk, walks, rays.ray_offset()), key);
+            wanted -= finds_light(scene, rays, sides[chart].start(back, walk, walks), key);
         }
         return wanted == 0;
     };

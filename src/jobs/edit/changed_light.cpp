@@ -417,7 +417,7 @@ glm::vec3 Gatherer::from_lamps(const Receiver& receiver) const
             if (lamp.irradiance == glm::vec3(0.0f) ||
                 !may_be_hidden(receiver, x.position, lamp.direction, lamp.distance))
                 continue;
-            const RaySpan ray = ray_towards(lamp, start, ray_offset_, samples.bits(kSeedPair));
+            const RaySpan ray = ray_towards(lamp, start, samples.bits(kSeedPair));
             const auto passes = [&](const SeenScene& seen) {
                 ++*receiver.rays;
                 return seen.scene->rays.transmittance(ray);

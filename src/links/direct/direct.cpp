@@ -161,7 +161,7 @@ void DirectEstimator::look(const RayOrigin& start, std::size_t source, float fac
         sample.irradiance *= factor;
         sample.open.reset();
     }
-    looks.add(sample, ray_towards(sample, start, work_.scene.rays.ray_offset(), seed));
+    looks.add(sample, ray_towards(sample, start, seed));
 }
 
 std::uint32_t DirectEstimator::looks_around() const

@@ -30,7 +30,7 @@ struct LinkWork {
           casters(std::move(by)),
           world(of.scene, of.rays, of.lumels),
           cells(world),
-          starts(world, &cells, of.rays.ray_offset(), rule == SampleRule::centre),
+          starts(world, &cells, rule == SampleRule::centre),
           sources(of.scene, of.surfaces, of.extent(), lights),
           order(order_of(world))
     {

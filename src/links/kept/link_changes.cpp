@@ -126,6 +126,7 @@ std::vector<std::uint64_t> lumel_hashes(const WorldLumels& world, const Lumels& 
             print.add(world[i].centre);
             print.add(world[i].normal);
             print.add(world[i].size);
+            print.add(world[i].reach);
             print.add_bytes(pieces.data(), pieces.size_bytes());
             prints[i] = print.value();
         }

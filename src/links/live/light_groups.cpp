@@ -216,7 +216,7 @@ glm::vec3 LightGroups::transmittance(const RayOrigin& start, const SourceSample&
 {
     if (sample.irradiance == glm::vec3(0.0f))
         return glm::vec3(0.0f);
-    const RaySpan ray = ray_towards(sample, start, place_.rays.ray_offset(), seed);
+    const RaySpan ray = ray_towards(sample, start, seed);
     return glm::vec3(place_.rays.is_clear(ray) ? 1.0f : 0.0f);
 }
 

@@ -108,7 +108,7 @@ LiveLinks::LiveLinks(std::unique_ptr<SolveScene> of, const LiveLinksOptions& opt
       given_(transforms_of(scene())),
       rays_(*scene_, instances_of(scene(), options.things, options.groups)),
       world_(scene(), rays_.still(), lumels()),
-      starts_(world_, nullptr, rays_.ray_offset(), false),
+      starts_(world_, nullptr, false),
       given_sky_(scene().sky),
       sources_(scene(), scene_->surfaces, scene_->extent()),
       lumels_of_(lumels_by_thing(lumels(), rays_)),

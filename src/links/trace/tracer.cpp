@@ -131,7 +131,7 @@ LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkN
       direct_(direct),
       hits_(work.scene.scene, work.scene.atlas, work.scene.lumels),
       seed_(seed),
-      ray_offset_(work.scene.rays.ray_offset())
+      margin_(work.scene.rays.ray_offset())
 {
 }
 
@@ -158,7 +158,7 @@ bool LinkTracer::may_meet_moved(const RaySpan& ray, const LinkChanges& changes) 
 {
     return std::any_of(
         changes.moved.begin(), changes.moved.end(), [&](const LinkChanges::Moved& moved) {
-            return moved.box.may_meet(ray.origin, ray.direction, ray.far, ray_offset_) &&
+            return moved.box.may_meet(ray.origin, ray.direction, ray.far, margin_) &&
                    (moved.blends || moved.tree.transmittance(ray) != glm::vec3(1.0f));
         });
 }
@@ -408,7 +408,8 @@ std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, std::uint32_t s
             arrival.cell = c;
         }
     }
-    const float ray_offset = std::max(kAboveHit * work_.world[j].size, ray_offset_);
+    const float ray_offset =
+        std::max(kAboveHit * work_.world[j].size, ray_offset_for(work_.world[j].reach));
     const LumelPoint& point = points.point[arrival.cell];
     return ray_between(arrival.position + ray_offset * work_.world[j].normal,
                        point.position + ray_offset * point.normal, 0.0f, seed);
@@ -464,8 +465,8 @@ RaySpan LinkTracer::reflect(const RayBatch& wave, const PathHit& arrival, int re
     const std::uint32_t pair = pair_of(reflections);
     const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
     const glm::vec3 origin = ray.origin +
-                             ray.direction * std::max(0.0f, hit.distance - ray_offset_) +
-                             ray_offset_ * normal;
+                             ray.direction * std::max(0.0f, hit.distance - hit.ray_offset) +
+                             hit.ray_offset * normal;
     path.size = work_.lumels()[arrival.lumel].size;
     if (arrival.looks_around)
         direct_.sample_lights({origin, normal, normal, arrival.cell}, path.size,

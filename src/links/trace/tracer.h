@@ -85,7 +85,7 @@ private:
     const DirectEstimator& direct_;
     NearLumels hits_;
     std::uint32_t seed_;
-    float ray_offset_;
+    float margin_;  ///< [m] of boxes
 };
 
 }  // namespace lumel

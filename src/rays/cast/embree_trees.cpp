@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/core/error.h"
+#include "rays/cast/ray_scene.h"
 
 namespace lumel {
 namespace {
@@ -21,6 +22,18 @@ void place_vertices(TracedPart& part, float* vertices)
         for (int axis = 0; axis < 3; ++axis)
             *vertices++ = world[axis];
     }
+}
+
+std::vector<float> longest_edges(const TracedPart& part)
+{
+    const std::vector<std::uint32_t>& indices = part.source->indices;
+    const auto corner = [&](std::size_t k) {
+        return part.to_world(part.source->positions[indices[k]]);
+    };
+    std::vector<float> longest(indices.size() / 3);
+    for (std::size_t t = 0; t < longest.size(); ++t)
+        longest[t] = longest_edge(corner(3 * t), corner(3 * t + 1), corner(3 * t + 2));
+    return longest;
 }
 
 /// Embree's memory monitor.
@@ -121,8 +134,9 @@ void EmbreeTrees::add(const Scene& scene, std::uint32_t instance, std::uint32_t 
     }
     const auto number = std::uint32_t(parts_.size());
     TracedPart& part =
-        parts_.emplace_back(TracedPart{&scene, &source, instance, primitive, number});
+        parts_.emplace_back(TracedPart{&scene, &source, instance, primitive, number, 1.0f, {}});
     place_vertices(part, vertices);
+    part.longest_edge = longest_edges(part);
     std::copy(source.indices.begin(), source.indices.end(), indices);
 
     rtcSetGeometryUserData(geometry, &part);

@@ -17,8 +17,9 @@ struct TracedPart {
     const Primitive* source = nullptr;
     std::uint32_t instance = 0;
     std::uint32_t primitive = 0;
-    std::uint32_t number = 0;  ///< index among all parts
-    float winding = 1.0f;      ///< -1: mirrored instance, clockwise vertices at the front
+    std::uint32_t number = 0;         ///< index among all parts
+    float winding = 1.0f;             ///< -1: mirrored instance, clockwise vertices at the front
+    std::vector<float> longest_edge;  ///< [triangles] world [m]; motion is rigid
 
     glm::vec3 to_world(const glm::vec3& position) const
     {

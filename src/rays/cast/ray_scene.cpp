@@ -12,8 +12,8 @@ namespace lumel {
 
 namespace {
 
-/// Ray offset relative to the scene's size: far above the rounding error of a hit's position (about
-/// 1e-7), far below visible distances.
+/// Ray offset relative to the reach of its surface: far above the rounding error of a hit's
+/// position (about 1e-7), far below visible distances.
 constexpr float kLift = 1e-5f;
 
 /// Coloured glass on a ray.
@@ -185,6 +185,22 @@ RaySpan ray_between(const glm::vec3& from, const glm::vec3& to, float offset, st
     return {from, offset, path / distance, distance - offset, seed};
 }
 
+float ray_offset_for(float reach)
+{
+    return kLift * reach;
+}
+
+float largest_coordinate(const glm::vec3& position)
+{
+    const glm::vec3 size = glm::abs(position);
+    return std::max({size.x, size.y, size.z});
+}
+
+float longest_edge(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+{
+    return std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+}
+
 RaySpan ray_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed)
 {
     return {from, 0.0f, direction, std::numeric_limits<float>::max(), seed};
@@ -243,7 +259,19 @@ bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, floa
     hit.normal =
         part.winding * glm::normalize(glm::vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
     hit.front = glm::dot(hit.normal, direction) < 0.0f;
+    hit.ray_offset = ray_offset_for(std::max({largest_coordinate(origin + hit.distance * direction),
+                                              hit.distance, part.longest_edge[hit.triangle]}));
     return true;
+}
+
+float RayScene::ray_offset(const glm::vec3& position, const glm::vec3& normal) const
+{
+    // The surface that the point lies on, if any: no further than the offset of the largest one.
+    const float most = ray_offset();
+    RayHit hit;
+    if (closest(position + most * normal, -normal, 0.0f, 2.0f * most, 0, hit))
+        return std::max(hit.ray_offset, ray_offset_for(largest_coordinate(position)));
+    return ray_offset_for(largest_coordinate(position));
 }
 
 std::size_t RayScene::parts() const
@@ -295,7 +323,10 @@ RayHit RayScene::hit(std::size_t number, std::uint32_t triangle, const glm::vec2
             .barycentric = barycentric,
             .distance = distance,
             .normal = normal,
-            .front = glm::dot(normal, direction) < 0.0f};
+            .front = glm::dot(normal, direction) < 0.0f,
+            .ray_offset = ray_offset_for(
+                std::max({largest_coordinate(corner[0]), largest_coordinate(corner[1]),
+                          largest_coordinate(corner[2]), distance, part.longest_edge[triangle]}))};
 }
 
 std::uint64_t RayScene::bytes() const

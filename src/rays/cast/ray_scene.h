@@ -28,6 +28,17 @@ struct RaySpan {
 /// Segment between two points, both ends shortened by `offset` [m].
 RaySpan ray_between(const glm::vec3& from, const glm::vec3& to, float offset, std::uint32_t seed);
 
+/// Offset of ray origins from a surface, so that rays do not hit it again [m]. reach: largest
+/// coordinate of the origin, edge of its triangle, or length of the ray that found it [m]: what
+/// rounding errors are proportional to.
+float ray_offset_for(float reach);
+
+/// Largest coordinate [m].
+float largest_coordinate(const glm::vec3& position);
+
+/// Longest edge of a triangle [m].
+float longest_edge(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+
 /// Ray along a unit direction, of infinite length.
 RaySpan ray_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed);
 
@@ -38,8 +49,9 @@ struct RayHit {
     std::uint32_t triangle = 0;   ///< index into Primitive::indices / 3
     glm::vec2 barycentric{0.0f};  ///< weights of the triangle's 2nd and 3rd vertex
     float distance = 0.0f;        ///< [m], direction must be unit length
-    glm::vec3 normal{0.0f};  ///< geometric, unit, world, outward by winding (flipped by mirroring)
-    bool front = true;       ///< hit from the side of the normal
+    glm::vec3 normal{0.0f};   ///< geometric, unit, world, outward by winding (flipped by mirroring)
+    bool front = true;        ///< hit from the side of the normal
+    float ray_offset = 0.0f;  ///< of rays that start here [m], see ray_offset_for()
     /// Product of the tints of all glass passed, valid even without a hit.
     glm::vec3 tint{1.0f};
 };
@@ -103,6 +115,9 @@ public:
     RayHit hit(std::size_t part, std::uint32_t triangle, const glm::vec2& barycentric,
                float distance, const glm::vec3& direction) const;
 
+    /// Offset of rays that start at a point [m], which may lie on a surface facing `normal`.
+    float ray_offset(const glm::vec3& position, const glm::vec3& normal) const;
+
     /// Corners of the world-space bounding box [m]; both 0 for a scene without triangles.
     glm::vec3 low() const;
     glm::vec3 high() const;
@@ -110,7 +125,7 @@ public:
     /// Memory of the BVHs [bytes].
     std::uint64_t bytes() const;
 
-    /// Offset of ray origins from a surface, so that rays do not hit it again [m].
+    /// Upper bound of the ray offsets in this scene [m].
     float ray_offset() const;
 
 private:

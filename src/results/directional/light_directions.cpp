@@ -40,7 +40,7 @@ public:
           surfaces_(scene),
           sources_(scene, surfaces_, glm::distance(rays.low(), rays.high()), {.surfaces = false}),
           places_(scene, rays, lumels),
-          starts_(places_, nullptr, rays.ray_offset(), options.rule == SampleRule::centre),
+          starts_(places_, nullptr, options.rule == SampleRule::centre),
           normals_(normals),
           fit_(fit),
           seed_(options.seed),

@@ -38,7 +38,11 @@ public:
                             std::uint32_t seed) const;
 
     const LightSources& sources() const { return sources_; }
-    float ray_offset() const { return rays_.ray_offset(); }
+    /// As RayScene::ray_offset().
+    float ray_offset(const glm::vec3& position, const glm::vec3& normal) const
+    {
+        return rays_.ray_offset(position, normal);
+    }
 
 private:
     const RayScene& rays_;

@@ -31,8 +31,8 @@ LightMeter::LightMeter(const Scene& scene, const RayScene& rays, const Atlas& at
 
 Reading LightMeter::read(const MeterPoint& point, std::uint32_t number) const
 {
-    const RayOrigin start =
-        origin_at(point.position + light_.ray_offset() * point.normal, point.normal);
+    const float ray_offset = light_.ray_offset(point.position, point.normal);
+    const RayOrigin start = origin_at(point.position + ray_offset * point.normal, point.normal);
     const RayAllocation shares = light_.allocate_rays(start.position, rays_of_set_);
     std::array<double, kRaySets> lux;
     Reading reading;

@@ -41,6 +41,62 @@ bool hits_from_above(const RayScene& rays, float x, float y, std::uint32_t seed 
     return rays.closest({x, y, 1.0f}, {0.0f, 0.0f, -1.0f}, 0.0f, kFar, seed, hit);
 }
 
+/// However large a surface is, and wherever: from no side, at no angle.
+TEST(RayScene, RaysThatStartAtAHitDoNotHitItsSurfaceAgain)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> number(-1.0f, 1.0f);
+    const auto direction = [&] {
+        glm::vec3 v(2.0f);
+        while (glm::dot(v, v) > 1.0f || glm::dot(v, v) < 0.01f)
+            v = {number(random), number(random), number(random)};
+        return glm::normalize(v);
+    };
+    for (const float size : {0.01f, 1.0f, 100.0f, 10000.0f})
+        for (const float away : {0.0f, 10.0f, 1000.0f})
+            for (int turn = 0; turn < 32; ++turn) {
+                const glm::vec3 u = direction(), v = glm::normalize(glm::cross(u, direction())),
+                                middle = away * direction();
+                Scene scene;
+                add_quad(scene, {.corner = middle - 0.5f * size * (u + v),
+                                 .edge_u = size * u,
+                                 .edge_v = size * v});
+                const RayScene rays(scene);
+                for (int k = 0; k < 64; ++k) {
+                    const glm::vec3 target =
+                        middle + 0.49f * size * (number(random) * u + number(random) * v);
+                    const glm::vec3 from = target + 2.0f * size * direction();
+                    const glm::vec3 along = glm::normalize(target - from);
+                    RayHit hit, again;
+                    if (!rays.closest(from, along, 0.0f, kFar, 0, hit))
+                        continue;
+                    const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
+                    const glm::vec3 start = from + hit.distance * along + hit.ray_offset * normal;
+                    glm::vec3 out = direction();
+                    if (glm::dot(out, normal) < 0.0f)
+                        out = -out;
+                    EXPECT_FALSE(rays.closest(start, out, 0.0f, kFar, 0, again))
+                        << size << " m, " << away << " m away";
+                }
+            }
+}
+
+TEST(RayScene, RaysStartBySmallSurfacesCloseToThemHoweverLargeTheScene)
+{
+    Scene scene;
+    add_quad(scene, unit_square());
+    add_quad(scene, {.corner = {-500, -500, -1}, .edge_u = {1000, 0, 0}, .edge_v = {0, 1000, 0}});
+    const RayScene rays(scene);
+    RayHit hit;
+    ASSERT_TRUE(rays.closest({0.25f, 0.5f, 1.0f}, {0.0f, 0.0f, -1.0f}, 0.0f, kFar, 0, hit));
+    EXPECT_LT(hit.ray_offset, 1e-4f);
+    EXPECT_LT(rays.ray_offset({0.25f, 0.5f, 0.0f}, {0.0f, 0.0f, 1.0f}), 1e-4f);
+    ASSERT_TRUE(rays.closest({2.0f, 0.5f, 1.0f}, {0.0f, 0.0f, -1.0f}, 0.0f, kFar, 0, hit));
+    EXPECT_GT(hit.ray_offset, 1e-3f);
+    EXPECT_GT(rays.ray_offset({2.0f, 0.5f, -1.0f}, {0.0f, 0.0f, 1.0f}), 1e-3f);
+    EXPECT_GE(rays.ray_offset(), hit.ray_offset);
+}
+
 TEST(RayScene, FindsTheNearestTriangleAndSaysWhereOnIt)
 {
     Scene scene;
