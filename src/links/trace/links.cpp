@@ -58,6 +58,9 @@ constexpr double kCostOfLink = 1.5;
 constexpr double kMinShare = 0.1, kMaxShare = 0.6;
 /// Fraction of the first round that direct light takes, for the progress bar only.
 constexpr double kDirectOfRound = 0.5;
+/// What sweeps may leave out, relative to each sub-lumel's light: at least this, and this fraction
+/// of a target error.
+constexpr double kResidual = 1e-3, kResidualOfTarget = 0.1;
 /// Minimum mean albedo of rooms whose level is balanced.
 constexpr double kBrightRoom = 0.95;
 /// Lumels below this fraction of the mean are dark.
@@ -379,13 +382,22 @@ double LinkRadiosity::rays_that_fit() const
     return std::max(double(most_bytes_) - taken - rows, 0.0) / (kSolutions * of_ray);
 }
 
+/// What sweeps leave out, relative to each sub-lumel's light: little beside the target errors.
+double LinkRadiosity::sweep_residual() const
+{
+    double target = 0.0;
+    for (const Wanted& one : wanted())
+        target = target > 0.0 ? std::min(target, one.error) : one.error;
+    return std::max(kResidual, kResidualOfTarget * target);
+}
+
 /// Solves for all bounces over the links of each solution.
 void LinkRadiosity::solve()
 {
     const ReflectedLight reflected(work_, *parts_, *numbers_, *direct_);
     for (std::size_t k = 0; k < kSolutions; ++k) {
         sources_[k] = find_source_term(work_, *parts_, *numbers_, reflected, *links_[k]);
-        solver_->solve(*links_[k], sources_[k], received_[k]);
+        solver_->solve(*links_[k], sources_[k], sweep_residual(), received_[k]);
         balance(k);
     }
 }

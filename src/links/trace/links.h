@@ -120,6 +120,7 @@ private:
     std::vector<double> rays_so_far() const;
     std::vector<double> deviation_of_ray(const std::vector<double>& sent);
     void share_out_rays();
+    double sweep_residual() const;
     void solve();
     void end_round();
     void balance(std::size_t solution);

@@ -20,9 +20,8 @@ constexpr int kGroupCells = 4;
 constexpr int kFirstSweeps = 2;
 /// Sweeps before groups are made.
 constexpr int kPlainSweeps = 10;
-/// Convergence threshold: RMS residual relative to each sub-lumel's own light. Sub-lumels darker
-/// than kDarkestCounted × the mean count as that bright.
-constexpr double kStill = 1e-3, kDarkestCounted = 1e-4;
+/// For the residual, sub-lumels darker than this × the mean count as that bright.
+constexpr double kDarkestCounted = 1e-4;
 constexpr int kSweepLimit = 2000;
 /// Maximum factor of a group's correction.
 constexpr double kMaxFactor = 64.0;
@@ -277,7 +276,7 @@ LinkSolver::Change LinkSolver::sweep_block(const System& system, std::size_t b, 
     return change;
 }
 
-void LinkSolver::solve(const LinkTable& links, const SourceTerm& source,
+void LinkSolver::solve(const LinkTable& links, const SourceTerm& source, double residual,
                        std::vector<glm::vec3>& received) const
 {
     const System system{links, source};
@@ -308,7 +307,7 @@ void LinkSolver::solve(const LinkTable& links, const SourceTerm& source,
             groups ? size + groups->correct(sent, next) : size * factor / (1.0 - factor);
         sent.swap(next);
         before = size;
-        if (size == 0.0 || (sweep > kFirstSweeps && to_come < kStill))
+        if (size == 0.0 || (sweep > kFirstSweeps && to_come < residual))
             return;
         if (sweep == 1)
             floor = kDarkestCounted * mean_of(sent, parts);

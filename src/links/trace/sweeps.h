@@ -23,9 +23,10 @@ public:
     /// All arguments must outlive this.
     LinkSolver(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers);
 
-    /// X [P] [lx]; starts from `received` unless it is empty. Throws Error{input} if the light of a
-    /// closed room is never absorbed.
-    void solve(const LinkTable& links, const SourceTerm& source,
+    /// X [P] [lx]; starts from `received` unless it is empty. residual: RMS of the light left out,
+    /// relative to each sub-lumel's own. Throws Error{input} if the light of a closed room is never
+    /// absorbed.
+    void solve(const LinkTable& links, const SourceTerm& source, double residual,
                std::vector<glm::vec3>& received) const;
 
 private:

@@ -40,7 +40,7 @@ struct TracedRoom {
         tracer.trace(0, tracer.blocks(),
                      {each, kLinkStream + std::uint32_t(links.rounds.size()), nullptr}, links);
         source = find_source_term(work, parts, numbers, {work, parts, numbers, direct}, links);
-        solver.solve(links, source, received);
+        solver.solve(links, source, 1e-3, received);
     }
 
     SolveScene scene;
