@@ -12,6 +12,7 @@
 #include "../support/temporary_folder.h"
 #include "base/core/state_bytes.h"
 #include "closed_room.h"
+#include "links/trace/links.h"
 #include "truth/reference.h"
 
 namespace lumel {
@@ -67,6 +68,45 @@ TEST(Links, RefuseARoomThatAbsorbsNothing)
         FAIL() << "it was solved";
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("absorbed"), std::string::npos) << error.what();
+    }
+}
+
+/// Two rooms side by side, the first with a glowing wall. open: without the walls between them.
+std::vector<support::Quad> two_rooms(bool open)
+{
+    support::Quad look;
+    look.res_u = look.res_v = 8;
+    auto lit = support::box_walls({0, 0, 0}, {1, 1, 1}, true, look);
+    const auto dark = support::box_walls({1.1f, 0, 0}, {2.1f, 1, 1}, true, look);
+    lit[0].emission = glm::vec3(1.0f);
+    std::vector<support::Quad> quads;
+    for (std::size_t wall = 0; wall < lit.size(); ++wall)
+        if (!open || wall != 1)
+            quads.push_back(lit[wall]);
+    for (std::size_t wall = 0; wall < dark.size(); ++wall)
+        if (!open || wall != 0)
+            quads.push_back(dark[wall]);
+    return quads;
+}
+
+TEST(Links, LeaveSpaceThatNoLightReachesAfterARound)
+{
+    for (const bool open : {false, true}) {
+        const std::vector<support::Quad> quads = two_rooms(open);
+        support::HandMade rooms = support::make_quads(quads);
+        const Atlas atlas = support::lay_out(rooms, quads);
+        const SolveScene world(rooms.scene, atlas, rooms.lumels);
+        LinkRadiosity light(world, LinksOptions{}, {.target_error = 0.003});
+        while (light.state().shots == 0 || light.state().error > 0.003)
+            light.step();
+        const StoredLinks kept = light.kept("");
+        ASSERT_GT(kept.rounds.size(), 1u);
+        const std::vector<glm::vec3> irradiance = light.irradiance();
+        for (std::size_t i = rooms.first[quads.size() / 2]; i < irradiance.size(); ++i) {
+            EXPECT_EQ(irradiance[i].g > 0.0f, open);
+            EXPECT_GT(kept.rounds.front().rays[i], 0);
+            EXPECT_EQ(kept.rounds.back().rays[i] > 0, open) << "lumel " << i;
+        }
     }
 }
 

@@ -283,6 +283,7 @@ void LinkRadiosity::find_light()
     tracer_.emplace(work_, *parts_, *numbers_, *direct_, options_.seed);
     for (std::optional<LinkTable>& links : links_)
         links.emplace(parts_->count());
+    sealed_.emplace(work_, *parts_, *numbers_);
 }
 
 /// Traces a step of the round's rays.
@@ -346,8 +347,41 @@ void LinkRadiosity::begin_round()
     if (most_shots_ > state_.shots)
         mean_rays_ = std::min(mean_rays_, double(most_shots_ - state_.shots) / double(kSolutions));
     share_out_rays();
+    if (state_.shots > 0)
+        leave_sealed_space();
     filter_.reset();
     begin_links();
+}
+
+/// [P] 1 for sub-lumels that send light or receive some.
+std::vector<char> LinkRadiosity::lit_parts() const
+{
+    std::vector<char> lit(parts_->count(), 0);
+    for (std::uint32_t p = 0; p < lit.size(); ++p) {
+        lit[p] = work_.lumels()[parts_->lumel(p)].emission != glm::vec3(0.0f);
+        for (const std::vector<glm::vec3>& received : received_)
+            lit[p] |= received[p] != glm::vec3(0.0f);
+    }
+    for (std::size_t i = 0; i < work_.lumels().size(); ++i)
+        for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
+            if (direct_->at(i, c) != glm::vec3(0.0f))
+                lit[parts_->part(i, c)] = 1;
+    return lit;
+}
+
+/// Lumels that no light can reach send no more rays: as long as no link, theirs or one to them,
+/// joins them with light.
+void LinkRadiosity::leave_sealed_space()
+{
+    const std::vector<char> lit = lit_parts();
+    if (std::find(lit.begin(), lit.end(), 0) == lit.end())
+        return;
+    for (std::size_t k = 0; k < kSolutions; ++k)
+        sealed_->join(*links_[k], k);
+    const std::vector<char> sealed = sealed_->sealed(lit);
+    for (std::size_t i = 0; i < sealed.size(); ++i)
+        if (sealed[i])
+            rays_[i] = 0;
 }
 
 /// Further rays per lumel and solution for the target error.

@@ -9,6 +9,7 @@
 #include "links/filter/filter.h"
 #include "links/kept/link_changes.h"
 #include "links/trace/links_options.h"
+#include "links/trace/sealed_space.h"
 #include "links/trace/sweeps.h"
 #include "links/trace/tracer.h"
 #include "rays/cast/ray_caster.h"
@@ -120,6 +121,8 @@ private:
     std::vector<double> rays_so_far() const;
     std::vector<double> deviation_of_ray(const std::vector<double>& sent);
     void share_out_rays();
+    std::vector<char> lit_parts() const;
+    void leave_sealed_space();
     double sweep_residual() const;
     void solve();
     void end_round();
@@ -155,6 +158,7 @@ private:
     std::optional<DirectEstimator> direct_;
     std::optional<LinkTracer> tracer_;
     std::optional<LinkSolver> solver_;
+    std::optional<SealedSpace> sealed_;
     std::optional<ChartFilter> filter_;  ///< for the present links; empty: not made
     // Solutions share no random numbers except those of direct light.
     std::array<std::optional<LinkTable>, kSolutions> links_;
