@@ -34,7 +34,9 @@ constexpr float kDiffers = 0.25f, kCounts = 0.01f;
 /// Neighbours on each side in the order of lumels that are compared for the sources they see.
 constexpr std::size_t kComparedNeighbours = 4;
 /// Maximum rays of one half to a source, and maximum growth per pass.
-constexpr std::uint32_t kMaxShadowRays = kManyRays << 9, kMaxTimes = 16;
+constexpr std::uint32_t kMaxShadowRays = kManyRays << 13, kMaxTimes = 16;
+/// Passes must reduce the variance to this fraction: those that gain less are not worth their rays.
+constexpr double kMinGain = 0.9;
 /// Passes with less growth are skipped.
 constexpr double kMinTimes = 1.41;
 /// Bisection steps for the number of rays that a variance needs, and the search range beyond the
@@ -407,8 +409,9 @@ bool DirectEstimator::refine(double share, std::uint64_t most, const std::vector
     }
     const std::vector<double> deviation = deviation_nearby(square, work_.order, 1.0);
     const double widest = *std::max_element(deviation.begin(), deviation.end());
+    double left = 0.0;  // of the scale tried last
     const auto enough = [&](double scale) {
-        double left = 0.0;
+        left = 0.0;
         std::uint64_t rays = 0;
         for (const std::uint32_t i : work_.order) {
             if (work_.is_buried(i))
@@ -426,6 +429,9 @@ bool DirectEstimator::refine(double share, std::uint64_t most, const std::vector
         const double middle = std::sqrt(low * high);
         (enough(middle) ? high : low) = middle;
     }
+    enough(high);
+    if (left > kMinGain * now)
+        return false;
     many_.clear();
     for (const std::uint32_t i : work_.order) {
         more_[i] = work_.is_buried(i) ? 0 : wanted(i, high * deviation[i]);

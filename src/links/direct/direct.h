@@ -33,7 +33,7 @@ public:
     double fraction() const;
     /// Schedules another pass where the variance is largest. It aims at `share` × the present
     /// variance, with at most `most` rays per source in total. weight [N]: of each lumel's squared
-    /// error. Returns false if more rays would not help.
+    /// error. Returns false if such a pass would gain less than 10 %.
     bool refine(double share, std::uint64_t most, const std::vector<double>& weight);
 
     /// Two independent estimates [2][N] [lx].

@@ -523,12 +523,13 @@ double LinkRadiosity::share_of_direct(const Errors& now) const
     return sum > 0.0 ? std::clamp(root / sum, kMinShare, kMaxShare) : kMaxShare;
 }
 
-/// Schedules refinement of direct light if its noise dominates.
+/// Schedules refinement of direct light if its noise dominates: beside that of the rays now, which
+/// is far above the target at first and says little yet.
 bool LinkRadiosity::refine_direct()
 {
     double share = 1.0;
     const auto cut = [&](double square, const Errors& now) {
-        const double most = share_of_direct(now) * square;
+        const double most = share_of_direct(now) * std::max(square, now.rays);
         if (now.direct > kTooUncertain * most)
             share = std::min(share, std::max(most / now.direct, kMinDirect));
     };
@@ -537,7 +538,19 @@ bool LinkRadiosity::refine_direct()
         cut(one.error * one.error, one.now);
     if (all.empty())
         cut(all_.rays + all_.direct, all_);
-    return share < 1.0 && direct_->refine(share, state_.shots * work_.order.size(), weights());
+    if (!(share < 1.0))
+        return false;
+    // By the variance that the filter leaves, as rays are allocated.
+    std::vector<double> weight = weights();
+    if (const ChartFilter* const by = filter()) {
+        const Mean plain = plain_mean(direct_->half(0), direct_->half(1));
+        const std::vector<double> left =
+            by->variance_left({plain.noise.begin(), plain.noise.end()},
+                              {direct_mean_.noise.begin(), direct_mean_.noise.end()});
+        for (std::size_t i = 0; i < weight.size(); ++i)
+            weight[i] *= left[i];
+    }
+    return direct_->refine(share, state_.shots * work_.order.size(), weight);
 }
 
 /// Irradiance by rays at a lumel in one solution, of the requested parts of light [lx].
