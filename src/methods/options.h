@@ -48,8 +48,8 @@ struct SolverOptions {
     }
     SolveLimits limits() const
     {
-        return {max_shots, max_seconds, target_error, target_dark_error, target_eye_error,
-                max_bytes};
+        return {max_shots,         max_seconds,      target_error,
+                target_dark_error, target_eye_error, max_bytes};
     }
 };
 

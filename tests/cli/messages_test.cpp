@@ -51,6 +51,35 @@ TEST(Messages, AnErrorThatIsNotReachedIsAWarning)
     EXPECT_EQ(run_lumel(small_bake(place.path("out"), {"--shots", "6"})).err, "");
 }
 
+TEST(Messages, AFinerQualityTakesMoreRaysAndSaysHowGoodTheLightIs)
+{
+    const Workplace place;
+    const auto rays = [&](const std::string& quality, double target) {
+        const Outcome bake = run_lumel(
+            bake_of(own_scene("two-rooms.gltf"), place.path("out"), {"--quality", quality}));
+        EXPECT_EQ(bake.code, 0) << bake.err;
+        EXPECT_TRUE(has(bake.err + bake.out, "of the light around")) << bake.err << bake.out;
+        const Json solution = report_in(place)["solution"];
+        EXPECT_LE(solution["estimated_eye_error"].get<double>(), target) << quality;
+        return solution["shots"].get<int>();
+    };
+    const int draft = rays("draft", 0.05), good = rays("good", 0.025), fine = rays("fine", 0.01);
+    EXPECT_LE(draft, good);
+    EXPECT_LT(2 * good, fine);
+}
+
+TEST(Messages, ABakeThatEndsByDefaultSaysHowToGoOn)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel({"bake", own_scene("room.gltf"), place.path("out"), "--size",
+                                    "96", "--preview-width", "0"});
+    EXPECT_EQ(bake.code, 0) << bake.err;
+    const Json solution = report_in(place)["solution"];
+    EXPECT_EQ(has(bake.err + bake.out, "--quality good goes on"),
+              solution["estimated_eye_error"].get<double>() > 0.025);
+    EXPECT_LE(solution["shots"].get<int>(), 128);
+}
+
 TEST(Messages, ATimeThatIsOverAtOnceStillLeavesLight)
 {
     const Workplace place;

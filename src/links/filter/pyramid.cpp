@@ -122,7 +122,8 @@ std::vector<Moments> averaged(const std::vector<Moments>& cells, const std::vect
         std::vector<Moments> alike(cells.size());
         bool any = false;
         for (std::size_t i = 0; i < cells.size(); ++i)
-            if (const float weight = weight_in(c, octaves[i]); weight > 0.0f && cells[i].count > 0.0f) {
+            if (const float weight = weight_in(c, octaves[i]);
+                weight > 0.0f && cells[i].count > 0.0f) {
                 alike[i] = cells[i] * weight;
                 any = true;
             }
@@ -130,7 +131,8 @@ std::vector<Moments> averaged(const std::vector<Moments>& cells, const std::vect
             continue;
         blur(alike, width, height, spread);
         for (std::size_t i = 0; i < cells.size(); ++i)
-            if (const float weight = weight_in(c, octaves[i]); weight > 0.0f && all[i].count > 0.0f) {
+            if (const float weight = weight_in(c, octaves[i]);
+                weight > 0.0f && all[i].count > 0.0f) {
                 result[i] += alike[i] * weight;
                 result[i] += all[i] * (weight * kUnlikeCells / all[i].count);
             }

@@ -82,8 +82,8 @@ double mean_of(std::vector<double> light)
     std::erase_if(light, [](double one) { return one < 0.0; });
     if (light.empty())
         return 0.0;
-    const auto kept = std::max(std::ptrdiff_t(kAllButBrightest * double(light.size())),
-                               std::ptrdiff_t(1));
+    const auto kept =
+        std::max(std::ptrdiff_t(kAllButBrightest * double(light.size())), std::ptrdiff_t(1));
     std::nth_element(light.begin(), light.begin() + kept - 1, light.end());
     double sum = 0.0;
     for (std::ptrdiff_t i = 0; i < kept; ++i)

@@ -20,7 +20,6 @@
 #include <cmath>
 
 #include "atlas/cells/order.h"
-#include "base/core/error.h"
 #include "base/core/state_bytes.h"
 #include "base/core/usage.h"
 #include "links/direct/deviation.h"
@@ -60,7 +59,7 @@ constexpr double kMinShare = 0.1, kMaxShare = 0.6;
 constexpr double kDirectOfRound = 0.5;
 /// What sweeps may leave out, relative to each sub-lumel's light: at least this, and this fraction
 /// of a target error.
-constexpr double kResidual = 1e-3, kResidualOfTarget = 0.1;
+constexpr double kResidual = 1e-3, kResidualOfTarget = 0.05;
 /// Minimum mean albedo of rooms whose level is balanced.
 constexpr double kBrightRoom = 0.95;
 /// Lumels below this fraction of the mean are dark.
@@ -223,11 +222,12 @@ void LinkRadiosity::read_state(StateReader& reader)
     cut();
     state(reader);
     state_.full = false;
-    check_sizes();
+    if (!is_consistent())
+        reader.fail();
 }
 
-/// Throws if the state that was read is of other lumels or sub-lumels.
-void LinkRadiosity::check_sizes() const
+/// True if the state that was read is of these lumels and sub-lumels.
+bool LinkRadiosity::is_consistent() const
 {
     const std::size_t lumels = work_.order.size(), parts = parts_->count();
     const auto is = [](std::size_t size, std::size_t wanted) {
@@ -240,8 +240,9 @@ void LinkRadiosity::check_sizes() const
                 direct_mean_.noise.size() == direct_mean_.light.size() &&
                 direct_mean_.wrong.size() == direct_mean_.light.size() &&
                 is(mean_.light.size(), lumels) && is(mean_.noise.size(), lumels) &&
-                is(mean_.wrong.size(), lumels) && is(adapted_.size(), lumels) && traced_ <= tracer_->blocks() &&
-                means_.size() == round_ && (state_.shots > 0) == !mean_.light.empty() &&
+                is(mean_.wrong.size(), lumels) && is(adapted_.size(), lumels) &&
+                traced_ <= tracer_->blocks() && means_.size() == round_ &&
+                (state_.shots > 0) == !mean_.light.empty() &&
                 (!is_tracing || (mean_rays_ > 0.0 && rays_.size() == lumels)) &&
                 (stage_ != Stage::solve || traced_ == tracer_->blocks());
     for (std::size_t k = 0; k < kSolutions; ++k)
@@ -250,9 +251,7 @@ void LinkRadiosity::check_sizes() const
                received_[k].size() >= (mean_.light.empty() ? 0 : parts) &&
                is(received_[k].size(), parts) &&
                sources_[k].rays.size() == (mean_.light.empty() ? 0 : parts);
-    if (!fits)
-        throw Error(ErrorKind::input, "checkpoint",
-                    "is of another version of Lumel; bake without --resume");
+    return fits;
 }
 
 /// Progress of the first round.

@@ -108,7 +108,7 @@ private:
     void state(Archive& archive);
     template <class Visit>
     void for_each_block(const Visit& visit) const;
-    void check_sizes() const;
+    bool is_consistent() const;
     void cut();
     void find_light();
     void trace();

@@ -32,8 +32,8 @@ double scale_for(double wanted, double start, const Sum& sum)
 
 }  // namespace
 
-/// [N] Weight of each lumel's squared error. With a target for the eye that of its measure; for dark
-/// lumels 1 / irradiance, halfway between absolute and relative errors.
+/// [N] Weight of each lumel's squared error. With a target for the eye that of its measure; for
+/// dark lumels 1 / irradiance, halfway between absolute and relative errors.
 std::vector<double> LinkRadiosity::weights() const
 {
     std::vector<double> weight(work_.order.size(), 1.0);
