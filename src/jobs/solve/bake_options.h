@@ -54,9 +54,9 @@ using ProgressFunction = std::function<bool(const BakeProgress&)>;
 
 struct BakeSummary {
     std::uint64_t shots = 0;
-    double error = -1.0;       ///< estimated relative error
-    double eye_error = -1.0;   ///< as in SolverState
-    double seconds = 0.0;      ///< total
+    double error = -1.0;      ///< estimated relative error
+    double eye_error = -1.0;  ///< as in SolverState
+    double seconds = 0.0;     ///< total
     bool interrupted = false;
     std::string report;  ///< JSON of report.json
 };
