@@ -25,8 +25,10 @@ Bell bell()
 {
     Bell weight{};
     double sum = 0.0;
-    for (int r = -kReach; r <= kReach; ++r)
-        sum += weight[std::size_t(r + kReach)] = std::exp(-0.5 * r * r / (kSpread * kSpread));
+    for (std::size_t k = 0; k < weight.size(); ++k) {
+        const double r = (double(k) - double(kReach)) / kSpread;
+        sum += weight[k] = std::exp(-0.5 * r * r);
+    }
     for (double& one : weight)
         one /= sum;
     return weight;
@@ -38,22 +40,21 @@ struct Sum {
 
 /// [N] Weighted sums over lumels of the same chart and side along a step.
 std::vector<Sum> blurred(const Lumels& lumels, std::span<const std::uint32_t> by_side,
-                         const std::vector<Sum>& sums, glm::ivec2 step)
+                         const std::vector<Sum>& sums, const glm::ivec2& step)
 {
     static const Bell weight = bell();
     std::vector<Sum> result(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const Lumel& lumel = lumels.lumels[i];
         const glm::ivec2 at(int(lumel.texel) % lumels.width, int(lumel.texel) / lumels.width);
-        for (int r = -kReach; r <= kReach; ++r) {
-            const glm::ivec2 there = at + r * step;
+        for (std::size_t k = 0; k < weight.size(); ++k) {
+            const glm::ivec2 there = at + (int(k) - kReach) * step;
             const std::uint32_t j =
                 lit_lumel_at(lumels, by_side, there.x, there.y, is_back(lumel) ? 1 : 0);
             if (j == kNoLumel || lumels.lumels[j].chart != lumel.chart)
                 continue;
-            const double w = weight[std::size_t(r + kReach)];
-            result[i].light += w * sums[j].light;
-            result[i].weight += w * sums[j].weight;
+            result[i].light += weight[k] * sums[j].light;
+            result[i].weight += weight[k] * sums[j].weight;
         }
     }
     return result;
