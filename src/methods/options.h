@@ -22,8 +22,8 @@ using MethodOptions =
 /// SolverState::eye_error of a map whose noise is seen, is hard to see, and is not seen.
 inline constexpr double kDraftError = 0.05, kGoodError = 0.025, kFineError = 0.01;
 
-/// Rays per lumel after which a bake by links ends unless a limit is asked for: most rooms are good
-/// then, and the last doubling of rays takes as long as all before.
+/// Rays per lumel after which a bake by links ends unless a limit is asked for. In buildings that
+/// takes one to two times as long as a relative RMSE of 2 %, for half of its error to the eye.
 inline constexpr std::uint64_t kDefaultRays = 128;
 
 /// A method, and when to stop.
