@@ -53,6 +53,8 @@ constexpr std::size_t kBlocksPerDrawing = 512;
 constexpr double kTooUncertain = 1.25, kMinDirect = 1.0 / 16.0;
 /// Cost of a link relative to a shadow ray, sweeps and filter included.
 constexpr double kCostOfLink = 1.5;
+/// Variance of rays after a round that adds kMaxAdded, relative to that before.
+constexpr double kNextRound = 1.0 / (1.0 + kMaxAdded);
 /// Bounds on the fraction of the target variance that direct light may have.
 constexpr double kMinShare = 0.1, kMaxShare = 0.6;
 /// Fraction of the first round that direct light takes, for the progress bar only.
@@ -522,13 +524,13 @@ double LinkRadiosity::share_of_direct(const Errors& now) const
     return sum > 0.0 ? std::clamp(root / sum, kMinShare, kMaxShare) : kMaxShare;
 }
 
-/// Schedules refinement of direct light if its noise dominates: beside that of the rays now, which
-/// is far above the target at first and says little yet.
+/// Schedules refinement of direct light if its noise dominates: beside that of the rays after the
+/// next round, as long as they are above the target.
 bool LinkRadiosity::refine_direct()
 {
     double share = 1.0;
     const auto cut = [&](double square, const Errors& now) {
-        const double most = share_of_direct(now) * std::max(square, now.rays);
+        const double most = share_of_direct(now) * std::max(square, kNextRound * now.rays);
         if (now.direct > kTooUncertain * most)
             share = std::min(share, std::max(most / now.direct, kMinDirect));
     };
