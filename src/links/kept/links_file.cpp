@@ -35,10 +35,9 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
 // 1: rays by the number of a lumel; 2: one number of rays, in a grid of directions
-constexpr std::uint64_t kVersion = 4;
-constexpr std::uint32_t kMaxSide = 65536;      ///< side of an atlas [texels]
-constexpr std::uint32_t kWord = 64;            ///< [bits]
-constexpr std::uint32_t kMaxInterleaved = 64;  ///< side of sets of directions [texels]
+constexpr std::uint64_t kVersion = 5;
+constexpr std::uint32_t kMaxSide = 65536;  ///< side of an atlas [texels]
+constexpr std::uint32_t kWord = 64;        ///< [bits]
 
 struct Head {
     std::array<char, 8> magic = kMagic;
@@ -107,7 +106,7 @@ bool unpack(const Words& words, StoredLinks& kept)
 template <class Archive>
 void contents(Archive& archive, StoredLinks& kept, Words& links)
 {
-    archive(kept.scene_hash, kept.seed, kept.interleaved, kept.ray_offset, kept.side,
+    archive(kept.scene_hash, kept.seed, kept.shared_directions, kept.ray_offset, kept.side,
             kept.texels_per_metre, kept.charts, kept.shows_front, kept.back_shift, kept.sheets,
             kept.instances, kept.boxes, kept.lumels, kept.rounds, links);
 }
@@ -145,8 +144,7 @@ bool is_sound(const StoredLinks& kept, const Words& links)
     };
     return kept.ray_offset > 0.0f && std::isfinite(kept.ray_offset) && kept.side > 0 &&
            kept.side <= kMaxSide && std::isfinite(kept.texels_per_metre) &&
-           kept.charts <= triangles && kept.interleaved <= kMaxInterleaved &&
-           kept.boxes.size() == kept.instances.size() &&
+           kept.charts <= triangles && kept.boxes.size() == kept.instances.size() &&
            LinkNumbers::fit(kept.instances.size(), kept.lumels.size()) &&
            std::all_of(kept.rounds.begin(), kept.rounds.end(),
                        [&](const StoredLinks::Round& round) { return is_sound(round, kept); }) &&

@@ -79,7 +79,7 @@ StoredLinks renumbered(const StoredLinks& kept, const Renumbering& now)
 {
     StoredLinks result{.scene_hash = kept.scene_hash,
                        .seed = kept.seed,
-                       .interleaved = kept.interleaved,
+                       .shared_directions = kept.shared_directions,
                        .ray_offset = kept.ray_offset,
                        .lumels = std::vector<std::uint64_t>(now.lumels_now, 0),
                        .instances = std::vector<std::uint64_t>(now.instances_now, 0),

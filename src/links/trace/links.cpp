@@ -294,13 +294,13 @@ void LinkRadiosity::trace()
     const std::size_t count =
         std::max(std::size_t(double(blocks * kFirstRays) / mean_rays_), std::size_t(1));
     const std::size_t last = std::min(traced_ + count, tracer_->blocks());
-    const std::uint32_t side = interleaved();
+    const bool shares = shares_directions();
     for (std::uint32_t k = 0; k < kSolutions; ++k) {
         const std::uint32_t stream = kLinkStream + kSolutions * round_ + k;
         std::optional<SharedDirections> shared;
-        if (side > 0)
+        if (shares)
             shared.emplace(
-                side, mean_rays_,
+                mean_rays_,
                 PathSamples::hash(PathSamples::hash(options_.seed, kSharedStream), stream));
         LinkTracer::Sending sending{rays_, stream, shared ? &*shared : nullptr};
         if (has_known_round())
@@ -311,12 +311,11 @@ void LinkRadiosity::trace()
     traced_ = last;
 }
 
-/// Side of the square of lumels with different sets of directions; 0: all have their own.
-std::uint32_t LinkRadiosity::interleaved() const
+bool LinkRadiosity::shares_directions() const
 {
     if (stored_)
-        return stored_->interleaved;
-    return work_.casters.bundles && options_.interleaved == 0 ? kInterleaved : options_.interleaved;
+        return stored_->shared_directions != 0;
+    return work_.casters.bundles || options_.shared_directions;
 }
 
 void LinkRadiosity::begin_links()

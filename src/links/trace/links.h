@@ -117,7 +117,7 @@ private:
     void begin_links();
     bool has_known_round() const;
     StoredLinks::Round stored_round(std::size_t round, const LinkNumbers& stored) const;
-    std::uint32_t interleaved() const;
+    bool shares_directions() const;
     std::vector<double> rays_so_far() const;
     std::vector<double> deviation_of_ray(const std::vector<double>& sent);
     void share_out_rays();

@@ -20,14 +20,12 @@ struct LinksOptions {
     SampleRule rule = SampleRule::area;
     bool filter = true;  ///< averages similar lumels of a chart
     Rays rays = Rays::automatic;
-    /// Lumels share directions with those this number of texels away: 4 makes 16 sets. 0: every
-    /// lumel has its own, except that Rays::raster uses kInterleaved.
-    std::uint32_t interleaved = 0;
+    /// All lumels draw their directions from one set, as always with Rays::raster; else every lumel
+    /// has its own.
+    bool shared_directions = false;
     /// Rays per lumel, in all solutions: traced evenly, in one round, and no more. 0: as many as
     /// the target error requires.
     std::uint32_t even_rays = 0;
 };
-
-inline constexpr std::uint32_t kInterleaved = 4;
 
 }  // namespace lumel

@@ -55,7 +55,7 @@ StoredLinks LinkRadiosity::kept(const std::string& hash) const
 {
     StoredLinks kept{.scene_hash = hash,
                      .seed = options_.seed,
-                     .interleaved = interleaved(),
+                     .shared_directions = std::uint8_t(shares_directions()),
                      .ray_offset = work_.scene.rays.ray_offset(),
                      .lumels = lumel_hashes(work_.world, work_.scene.lumels),
                      .instances = instance_hashes(work_.scene.scene),

@@ -172,8 +172,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
     const LumelSamples own(lumel, width, PathSamples::hash(seed_, sending.stream), rays);
     std::optional<CosineDraw> shared;
     if (sending.shared)
-        shared.emplace(*sending.shared,
-                       sending.shared->set(lumel.texel % width, lumel.texel / width));
+        shared.emplace(*sending.shared);
     const std::span<const LinkEnd> known =
         sending.known ? sending.known->of(i, rays) : std::span<const LinkEnd>();
     const bool is_cut = parts_.is_cut(i);
@@ -194,8 +193,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         std::uint32_t along = 0;
         glm::vec3 direction;
         if (shared) {
-            const float at = (float(k) + samples.random(kDirectionPair).x) / float(rays);
-            along = shared->draw(start.normal, at);
+            along = shared->draw(start.normal, samples.stratified(kDirectionPair).x);
             direction = sending.shared->all()[along];
         } else {
             if (start.normal != axis) {
