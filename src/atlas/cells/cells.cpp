@@ -1,6 +1,9 @@
 #include "atlas/cells/cells.h"
 
+#include <algorithm>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "atlas/cells/ray_origins.h"
 #include "base/core/parallel.h"
@@ -31,19 +34,20 @@ private:
     std::array<std::uint32_t, kCells> above_;
 };
 
+/// Distance of points near the corners of a flat lumel from them, in its ray offsets.
+constexpr float kInsideCorner = 2.0f;
+
 /// Joins cells at an offset from each other whose points are mutually visible.
-void join_along(const CellPoints& points, int dx, int dy, float ray_offset, const RayScene& rays,
-                std::uint32_t seed, Joined& joined)
+void join_along(const SeenCells& seen, int dx, int dy, Joined& joined)
 {
+    const CellPoints& points = seen.points();
     for (int y = 0; y + dy < kCellSide; ++y)
         for (int x = std::max(0, -dx); x < kCellSide && x + dx < kCellSide; ++x) {
             const auto a = std::uint32_t(y * kCellSide + x);
             const auto b = std::uint32_t((y + dy) * kCellSide + x + dx);
             if (!points.has(a) || !points.has(b) || joined.root(a) == joined.root(b))
                 continue;
-            const LumelPoint &from = points.point[a], &to = points.point[b];
-            if (rays.sees(from.position + ray_offset * from.normal,
-                          to.position + ray_offset * to.normal, 0.0f, seed))
+            if (seen.sees(points.point[a], b))
                 joined.join(a, b);
         }
 }
@@ -62,6 +66,57 @@ std::uint32_t nearest_used(const CellPoints& points, std::uint32_t cell)
         }
     }
     return best;
+}
+
+/// Points just inside the corners of a lumel's facets.
+template <class Visit>
+void for_each_corner(const WorldLumels& world, std::size_t i, const Visit& visit)
+{
+    const WorldLumel& lumel = world[i];
+    const float inside = kInsideCorner * ray_offset_for(lumel.reach);
+    for (auto facet = world.begin(lumel); facet != world.end(lumel); ++facet)
+        for (int k = 0; k < facet->count; ++k) {
+            const glm::vec3 to_centre = lumel.centre - facet->corner[k];
+            const float distance = glm::length(to_centre);
+            if (distance > inside)
+                visit(LumelPoint{facet->corner[k] + inside / distance * to_centre, lumel.normal});
+        }
+}
+
+/// True if a corner of a flat lumel does not see the nearest cell: geometry covers a sliver of it
+/// that no cell's point is in.
+bool has_sliver(const WorldLumels& world, std::size_t i, const SeenCells& seen)
+{
+    bool found = false;
+    if (world[i].flat)
+        for_each_corner(world, i, [&](const LumelPoint& corner) {
+            found = found || !seen.sees(corner, seen.points().nearest(corner.position));
+        });
+    return found;
+}
+
+/// True if rays along the normal, as long as the lumel's side, meet something from some points of a
+/// flat lumel but not from others.
+bool is_half_covered(const WorldLumels& world, const RayScene& rays, std::size_t i,
+                     const CellPoints& points, std::uint32_t seed)
+{
+    const WorldLumel& lumel = world[i];
+    if (!lumel.flat)
+        return false;
+    const float ray_offset = ray_offset_for(lumel.reach);
+    bool covered = false, open = false;
+    const auto look = [&](const LumelPoint& from) {
+        if (covered && open)
+            return;
+        const bool sees = rays.sees(from.position + ray_offset * lumel.normal,
+                                    from.position + lumel.size * lumel.normal, 0.0f, seed);
+        (sees ? open : covered) = true;
+    };
+    for_each_corner(world, i, look);
+    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
+        if (points.has(c))
+            look(points.point[c]);
+    return covered && open;
 }
 
 /// Stores two bits per cell: the number of its sub-lumel in the lumel. Returns the number of
@@ -108,6 +163,20 @@ Cells::Cells(const WorldLumels& world) : grids_(world.size())
     });
 }
 
+std::uint32_t CellPoints::nearest(const glm::vec3& position) const
+{
+    std::uint32_t found = 0;
+    float least = std::numeric_limits<float>::max();
+    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c) {
+        const glm::vec3 apart = point[c].position - position;
+        if (has(c) && glm::dot(apart, apart) < least) {
+            least = glm::dot(apart, apart);
+            found = c;
+        }
+    }
+    return found;
+}
+
 CellPoints cell_points(const WorldLumels& world, const Cells& cells, std::size_t i)
 {
     CellPoints points;
@@ -124,10 +193,65 @@ CellPoints cell_points(const WorldLumels& world, const Cells& cells, std::size_t
     return points;
 }
 
+SeenCells::SeenCells(const WorldLumels& world, const Cells& cells, const RayScene& rays,
+                     std::size_t i, std::uint32_t seed)
+    : rays_(rays),
+      points_(cell_points(world, cells, i)),
+      flat_(world[i].flat),
+      ray_offset_(std::max(kAboveCell * world[i].size, ray_offset_for(world[i].reach))),
+      seed_(seed)
+{
+}
+
+bool SeenCells::sees(const LumelPoint& from, std::uint32_t cell) const
+{
+    const LumelPoint& to = points_.point[cell];
+    return rays_.sees(from.position + ray_offset_ * from.normal,
+                      to.position + ray_offset_ * to.normal, 0.0f, seed_);
+}
+
+std::uint32_t SeenCells::nearest(const LumelPoint& from) const
+{
+    std::array<std::pair<float, std::uint32_t>, kCells> by_distance;
+    std::size_t count = 0;
+    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
+        if (points_.has(c)) {
+            const glm::vec3 apart = points_.point[c].position - from.position;
+            by_distance[count++] = {glm::dot(apart, apart), c};
+        }
+    std::sort(by_distance.begin(), by_distance.begin() + std::ptrdiff_t(count));
+    for (std::size_t n = 0; n < count; ++n)
+        if (sees(from, by_distance[n].second))
+            return by_distance[n].second;
+    return kNoCell;
+}
+
+std::uint32_t SeenCells::nearest_or(const LumelPoint& from, std::uint32_t own) const
+{
+    const std::uint32_t cell = nearest(from);
+    return cell == kNoCell && !flat_ ? own : cell;
+}
+
+std::uint32_t SubLumels::seed_of(std::size_t lumel) const
+{
+    return PathSamples::hash(seed_, lumel_key(lumels_.lumels[lumel], std::uint32_t(lumels_.width)));
+}
+
+SeenCells SubLumels::seen_cells(std::size_t lumel) const
+{
+    return {world_, cells_, rays_, lumel, seed_of(lumel)};
+}
+
 SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScene& rays,
                      const Lumels& lumels, const std::vector<std::uint32_t>& order,
                      std::uint32_t seed)
-    : first_(world.size(), 0),
+    : world_(world),
+      cells_(cells),
+      rays_(rays),
+      lumels_(lumels),
+      seed_(seed),
+      first_(world.size(), 0),
+      flags_(world.size(), 0),
       parts_(world.size(), 1),
       code_(world.size(), 0)
 {
@@ -135,17 +259,17 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
         for (std::size_t i = first; i < last; ++i) {
             if (lumels.lumels[i].flags & kLumelBuried)
                 continue;
-            const CellPoints points = cell_points(world, cells, i);
-            const float ray_offset =
-                std::max(kAboveCell * world[i].size, ray_offset_for(world[i].reach));
-            const std::uint32_t own =
-                PathSamples::hash(seed, lumel_key(lumels.lumels[i], std::uint32_t(lumels.width)));
+            const SeenCells seen = seen_cells(i);
             Joined joined;
-            join_along(points, 1, 0, ray_offset, rays, own, joined);
-            join_along(points, 0, 1, ray_offset, rays, own, joined);
-            join_along(points, 1, 1, ray_offset, rays, own, joined);
-            join_along(points, -1, 1, ray_offset, rays, own, joined);
-            parts_[i] = std::uint8_t(number_parts(points, joined, code_[i]));
+            join_along(seen, 1, 0, joined);
+            join_along(seen, 0, 1, joined);
+            join_along(seen, 1, 1, joined);
+            join_along(seen, -1, 1, joined);
+            parts_[i] = std::uint8_t(number_parts(seen.points(), joined, code_[i]));
+            if (is_cut(i) || has_sliver(world, i, seen))
+                flags_[i] |= kHides;
+            if (lumel::is_half_covered(world, rays, i, seen.points(), seed_of(i)))
+                flags_[i] |= kHalfCovered;
         }
     });
     for (const std::uint32_t i : order) {

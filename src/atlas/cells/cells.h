@@ -67,22 +67,50 @@ struct CellPoints {
     std::uint32_t used = 0;  ///< bit c: cell c has a point
 
     bool has(std::uint32_t cell) const { return (used >> cell & 1u) != 0; }
+    /// The cell whose point is nearest to a position [m].
+    std::uint32_t nearest(const glm::vec3& position) const;
 };
 CellPoints cell_points(const WorldLumels& world, const Cells& cells, std::size_t i);
+
+/// No cell: of a point that sees none.
+inline constexpr std::uint32_t kNoCell = kCells;
+
+/// The cells that points of a lumel see, by rays just above it.
+class SeenCells {
+public:
+    /// Arguments must outlive this. seed: of rays through blended surfaces.
+    SeenCells(const WorldLumels& world, const Cells& cells, const RayScene& rays, std::size_t i,
+              std::uint32_t seed);
+
+    const CellPoints& points() const { return points_; }
+    bool sees(const LumelPoint& from, std::uint32_t cell) const;
+    /// The nearest one, or kNoCell.
+    std::uint32_t nearest(const LumelPoint& from) const;
+    /// The nearest one; else kNoCell if the lumel is flat, as behind a wall's foot, or the given
+    /// one if not: the point may be in a groove.
+    std::uint32_t nearest_or(const LumelPoint& from, std::uint32_t own) const;
+
+private:
+    const RayScene& rays_;
+    CellPoints points_;
+    bool flat_;
+    float ray_offset_;  ///< [m]
+    std::uint32_t seed_;
+};
 
 /// The sub-lumels of all lumels.
 class SubLumels {
 public:
     /// Joins cells whose points see each other by rays just above the lumel. Buried lumels stay
-    /// whole. order [N]: in which lumels get their sub-lumels' numbers, so that those of neighbours
-    /// are close in memory.
+    /// whole. All arguments must outlive this but order [N]: in which lumels get their sub-lumels'
+    /// numbers, so that those of neighbours are close in memory.
     SubLumels(const WorldLumels& world, const Cells& cells, const RayScene& rays,
               const Lumels& lumels, const std::vector<std::uint32_t>& order, std::uint32_t seed);
 
     /// Memory for these numbers of lumels and sub-lumels [bytes].
     static std::uint64_t bytes(std::size_t lumels, std::size_t parts)
     {
-        return lumels * (2 * sizeof(std::uint32_t) + sizeof(std::uint8_t)) +
+        return lumels * (2 * sizeof(std::uint32_t) + 2 * sizeof(std::uint8_t)) +
                parts * sizeof(std::uint32_t);
     }
 
@@ -90,6 +118,16 @@ public:
     std::uint32_t first(std::size_t lumel) const { return first_[lumel]; }
     std::uint32_t end(std::size_t lumel) const { return first_[lumel] + parts_[lumel]; }
     bool is_cut(std::size_t lumel) const { return parts_[lumel] > 1; }
+    /// True if its points may not see their own cell: if it is cut, or a sliver of it is behind
+    /// other geometry.
+    bool hides(std::size_t lumel) const { return (flags_[lumel] & kHides) != 0; }
+    /// True if geometry closer than the lumel's size covers some of it: light can change there more
+    /// than cells tell, as where a lamp hangs just below a ceiling.
+    bool is_half_covered(std::size_t lumel) const { return (flags_[lumel] & kHalfCovered) != 0; }
+    /// True for either: light at a hit is not just that of its cell.
+    bool is_detailed(std::size_t lumel) const { return flags_[lumel] != 0; }
+    /// Of a lumel that hides points.
+    SeenCells seen_cells(std::size_t lumel) const;
     /// The sub-lumel of a cell.
     std::uint32_t part(std::size_t lumel, std::uint32_t cell) const
     {
@@ -98,7 +136,17 @@ public:
     std::uint32_t lumel(std::size_t part) const { return lumel_[part]; }
 
 private:
+    static constexpr std::uint8_t kHides = 1, kHalfCovered = 2;
+
+    std::uint32_t seed_of(std::size_t lumel) const;
+
+    const WorldLumels& world_;
+    const Cells& cells_;
+    const RayScene& rays_;
+    const Lumels& lumels_;
+    std::uint32_t seed_;
     std::vector<std::uint32_t> first_;  ///< [N]
+    std::vector<std::uint8_t> flags_;   ///< [N]
     std::vector<std::uint8_t> parts_;   ///< [N] number of sub-lumels
     std::vector<std::uint32_t> code_;   ///< [N] two bits per cell
     std::vector<std::uint32_t> lumel_;  ///< [P]

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "atlas/cells/lumel_samples.h"
 #include "base/core/luminance.h"
@@ -101,9 +102,10 @@ struct DirectEstimator::Choice {
     float factor;
 };
 
-DirectEstimator::DirectEstimator(const LinkWork& work, std::uint32_t seed)
+DirectEstimator::DirectEstimator(const LinkWork& work, std::uint32_t seed, const SubLumels* parts)
     : work_(work),
       seed_(seed),
+      parts_(parts),
       half_{std::vector<glm::vec3>(work.order.size()), std::vector<glm::vec3>(work.order.size())},
       taken_(work.order.size()),
       more_(work.order.size()),
@@ -210,7 +212,7 @@ glm::vec3 DirectEstimator::light_of(const ShadowRays& looks, std::uint32_t first
 
 /// Adds a lumel's rays to one source, or to the remaining sources together.
 void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t more,
-                               RayBatch& wave) const
+                               const SeenCells* seen, RayBatch& wave) const
 {
     const bool many = more > 0, alone = !to.rest,
                small = alone && work_.sources.is_small(to.source);
@@ -231,7 +233,8 @@ void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t 
                                         : choose(*to.rest, samples.stratified(kLampChoicePair).x);
             look(start, choice.source, choice.factor, samples.stratified(kLampPair),
                  samples.bits(kLampPair), wave.looks);
-            wave.cells.push_back(start.cell);
+            wave.cells.push_back(seen ? seen->nearest_or({start.position, start.normal}, start.cell)
+                                      : start.cell);
         }
     }
 }
@@ -241,25 +244,35 @@ void DirectEstimator::add(std::uint32_t i, RayBatch& wave) const
 {
     const Lumel& lumel = work_.lumels()[i];
     std::vector<float> rest;
+    std::optional<SeenCells> seen;
+    if (parts_ && parts_->hides(i))
+        seen.emplace(parts_->seen_cells(i));
     if (!(lumel.flags & kLumelBuried))
         for (const RaysTo& to :
              share_out_rays(work_.starts.start(i, glm::vec2(0.5f)).position, lumel.size, rest))
-            add_rays(i, to, more_[i], wave);
+            add_rays(i, to, more_[i], seen ? &*seen : nullptr, wave);
     wave.lumels.push_back(i);
     wave.groups_before.push_back(std::uint32_t(wave.groups.size()));
 }
 
 /// Adds the results of a group's rays.
-void DirectEstimator::take(const Group& group, const RayBatch& wave, Found& found)
+void DirectEstimator::take(const Group& group, std::uint32_t i, const RayBatch& wave,
+                           Found& found) const
 {
+    const auto part = [&](std::uint32_t cell) {
+        return is_cut(i) ? parts_->part(i, cell) - parts_->first(i) : 0u;
+    };
     std::array<SourceEstimate, kCells> of_cells;
+    std::array<SourceEstimate, kMaxParts> of_parts;
     SourceEstimate of_both;
     for (std::uint32_t h = 0; h < 2; ++h) {
         SourceEstimate sums;
         const std::uint32_t first = group.first + h * group.rays;
         for (std::uint32_t look = first; look < first + group.rays; ++look)
-            for (SourceEstimate* into : {&sums, &of_both, &of_cells[wave.cells[look]]})
-                into->add(wave.looks.sample(look), wave.looks.transmittance(look));
+            if (const std::uint32_t cell = wave.cells[look]; cell != kNoCell)
+                for (SourceEstimate* into :
+                     {&sums, &of_both, &of_cells[cell], &of_parts[part(cell)]})
+                    into->add(wave.looks.sample(look), wave.looks.transmittance(look));
         found.half[h] += sums.light();
     }
     found.rays += of_both.free + of_both.hidden;
@@ -268,7 +281,7 @@ void DirectEstimator::take(const Group& group, const RayBatch& wave, Found& foun
     if (of_both.free > 0)
         found.seen |= 1u << (group.alone ? group.source % 32 : 31);
     for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
-        found.cells[c] += (of_cells[c].rays > 0 ? of_cells[c] : of_both).light();
+        found.cells[c] += (of_cells[c].rays > 0 ? of_cells[c] : of_parts[part(c)]).light();
 }
 
 void DirectEstimator::take(const RayBatch& wave)
@@ -277,9 +290,9 @@ void DirectEstimator::take(const RayBatch& wave)
         const std::uint32_t i = wave.lumels[k];
         Found found;
         for (std::uint32_t g = wave.groups_before[k]; g < wave.groups_before[k + 1]; ++g)
-            take(wave.groups[g], wave, found);
+            take(wave.groups[g], i, wave, found);
         // Cells are used only if all sources have exact unoccluded light.
-        if (more_[i] == 0 && !found.exact)
+        if (more_[i] == 0 && !found.exact && !is_cut(i))
             found.cells.fill(0.5f * (found.half[0] + found.half[1]));
         keep(i, found, blocks_[(wave.first + k) / kBlock]);
     }
@@ -526,7 +539,7 @@ void DirectEstimator::keep_cells()
         double most = 0.0;
         for (const glm::vec3& cell : cells)
             most = std::max(most, luminance(cell));
-        if (most <= double(kCounts) * mean)
+        if (most <= double(kCounts) * mean && !is_cut(i))
             return;
         index[i] = std::uint32_t(kept.size());
         kept.push_back(cells);

@@ -21,8 +21,8 @@ namespace lumel {
 /// half(), mean() and at(). If refine() returns true, call step() again.
 class DirectEstimator {
 public:
-    /// The work must outlive this.
-    DirectEstimator(const LinkWork& work, std::uint32_t seed);
+    /// The work must outlive this. parts: sub-lumels, across which no light passes, or null.
+    DirectEstimator(const LinkWork& work, std::uint32_t seed, const SubLumels* parts = nullptr);
 
     /// Memory [bytes]. varying: number of lumels stored per cell.
     static std::uint64_t bytes(std::size_t lumels, std::size_t varying);
@@ -98,9 +98,11 @@ private:
     void look(const RayOrigin& start, std::size_t source, float factor, const glm::vec2& at,
               std::uint32_t seed, ShadowRays& looks) const;
     static Choice choose(const std::vector<float>& running, float at);
-    void add_rays(std::uint32_t lumel, const RaysTo& to, std::uint32_t more, RayBatch& wave) const;
+    void add_rays(std::uint32_t lumel, const RaysTo& to, std::uint32_t more, const SeenCells* seen,
+                  RayBatch& wave) const;
+    bool is_cut(std::uint32_t lumel) const { return parts_ && parts_->is_cut(lumel); }
     void add(std::uint32_t lumel, RayBatch& wave) const;
-    static void take(const Group& group, const RayBatch& wave, Found& found);
+    void take(const Group& group, std::uint32_t lumel, const RayBatch& wave, Found& found) const;
     void take(const RayBatch& wave);
     void find(const std::vector<std::uint32_t>& lumels, std::size_t first_block,
               std::size_t last_block);
@@ -114,6 +116,7 @@ private:
 
     const LinkWork& work_;
     std::uint32_t seed_;
+    const SubLumels* parts_;
     std::vector<glm::vec3> half_[2];
     std::vector<std::uint32_t> taken_;    ///< [N] rays of one half per source in later passes
     std::vector<std::uint32_t> more_;     ///< [N] rays that this pass adds

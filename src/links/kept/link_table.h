@@ -36,6 +36,8 @@ public:
     static constexpr std::uint32_t kBelow = 0;  ///< left below its own surface: black
     static constexpr std::uint32_t kSky = 1;
     static constexpr std::uint32_t kNear = 2;  ///< the NearLink of this ray has the end
+    /// Begins where no cell of its lumel can be seen, as behind a wall's foot: does not count.
+    static constexpr std::uint32_t kHidden = 3;
 
     /// Throws Error{input} unless they fit.
     LinkNumbers(std::size_t instances, std::size_t parts);
@@ -59,7 +61,7 @@ public:
     std::uint32_t count() const { return count_; }
 
 private:
-    static constexpr std::uint32_t kFirst = 3;
+    static constexpr std::uint32_t kFirst = 4;
     std::uint32_t first_part_, count_;
 };
 

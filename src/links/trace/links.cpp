@@ -280,7 +280,7 @@ void LinkRadiosity::cut()
 /// Prepares direct light and links of the present sources.
 void LinkRadiosity::find_light()
 {
-    direct_.emplace(work_, PathSamples::hash(options_.seed, kDirectStream));
+    direct_.emplace(work_, PathSamples::hash(options_.seed, kDirectStream), &*parts_);
     tracer_.emplace(work_, *parts_, *numbers_, *direct_, options_.seed);
     for (std::optional<LinkTable>& links : links_)
         links.emplace(parts_->count());

@@ -77,6 +77,8 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
             } else {
                 light = reflected.at(end);
             }
+            if (end.number() == LinkNumbers::kHidden)
+                continue;
             if (!numbers.is_part(end.number()))
                 loses[i] = 1;
             if (numbers.is_lost(end.number()))

@@ -249,19 +249,10 @@ LinkSolver::Change LinkSolver::sweep_block(const System& system, std::size_t b, 
             sums[p - first] = glm::vec4(system.source.light[p], 0.0f);
         for (LinkRows& rows : rounds)
             add_row(rows.next(parts_.is_cut(i)), parts_, i, sent, sums);
-        glm::vec4 of_all(0.0f);
-        std::uint32_t rays = 0;
         for (std::uint32_t p = first; p < last; ++p) {
-            const std::uint32_t own = system.source.rays[p];
-            of_all += sums[p - first];
-            rays += own;
-            if (own > 0)
-                received[p] = glm::vec3(sums[p - first]) / float(own);
-        }
-        for (std::uint32_t p = first; p < last; ++p) {
-            // A sub-lumel without rays takes the lumel's mean.
-            if (system.source.rays[p] == 0)
-                received[p] = rays > 0 ? glm::vec3(of_all) / float(rays) : glm::vec3(0.0f);
+            // Without rays its light is not known; that of the lumel's other parts would leak.
+            const std::uint32_t rays = system.source.rays[p];
+            received[p] = rays > 0 ? glm::vec3(sums[p - first]) / float(rays) : glm::vec3(0.0f);
             const std::uint32_t n = numbers_.of_part(p);
             next[n] = glm::vec4(albedo_[p] * received[p], 0.0f);
             const double now = double(next[n].x + next[n].y + next[n].z);

@@ -146,7 +146,8 @@ std::span<const LinkEnd> LinkTracer::Known::of(std::size_t i, std::size_t rays) 
 std::optional<LinkEnd> LinkTracer::still(LinkEnd stored, const Known& known) const
 {
     const std::uint32_t number = stored.number();
-    if (number == LinkNumbers::kNear || known.changes.ends[number])
+    if (number == LinkNumbers::kNear || number == LinkNumbers::kHidden ||
+        known.changes.ends[number])
         return std::nullopt;
     return stored_.is_part(number)
                ? LinkEnd::of(numbers_.of_part(parts_.part(stored_.part(number), stored.cell())),
@@ -175,7 +176,9 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         shared.emplace(*sending.shared);
     const std::span<const LinkEnd> known =
         sending.known ? sending.known->of(i, rays) : std::span<const LinkEnd>();
-    const bool is_cut = parts_.is_cut(i);
+    std::optional<SeenCells> seen;
+    if (parts_.hides(i) && rays > 0)
+        seen.emplace(parts_.seen_cells(i));
     glm::vec3 axis(0.0f);
     glm::mat3 frame(0.0f);
     for (std::uint32_t k = 0; k < rays; ++k) {
@@ -183,13 +186,20 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         if (!known.empty())
             end = still(known[k], *sending.known);
         const bool is_sky = end && end->number() == LinkNumbers::kSky;
-        if (end && !is_cut && !is_sky && sending.known->changes.moved.empty()) {
+        if (end && !seen && !is_sky && sending.known->changes.moved.empty()) {
             wave.ends.push_back(*end);
             wave.from.push_back(0);
             continue;
         }
         const PathSamples samples = own[k];
         const RayOrigin start = work_.starts.start(i, samples.stratified(kOriginPair));
+        const std::uint32_t cell =
+            seen ? seen->nearest_or({start.position, start.normal}, start.cell) : start.cell;
+        if (cell == kNoCell) {
+            wave.ends.push_back(LinkEnd::of(LinkNumbers::kHidden));
+            wave.from.push_back(0);
+            continue;
+        }
         std::uint32_t along = 0;
         glm::vec3 direction;
         if (shared) {
@@ -216,7 +226,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
             }
         }
         wave.ends.push_back(end.value_or(LinkEnd::of(LinkNumbers::kBelow)));
-        wave.from.push_back(std::uint8_t(start.cell));
+        wave.from.push_back(std::uint8_t(cell));
     }
     wave.lumels.push_back(i);
     wave.samples.push_back(own);
@@ -293,7 +303,7 @@ void LinkTracer::meet_first(RayBatch& wave) const
         const Landing at = land(ray, hit, size);
         const bool is_lumel = at.lumel != kNoLumel;
         if (hit.tint == glm::vec3(1.0f)) {
-            if (is_lumel ? at.sides >= kNearSides && !parts_.is_cut(at.lumel)
+            if (is_lumel ? at.sides >= kNearSides && !parts_.is_detailed(at.lumel)
                          : hit.distance >= kNearSides * size) {
                 wave.ends[slot] =
                     is_lumel ? LinkEnd::of(numbers_.of_part(parts_.first(at.lumel)), at.cell)
@@ -311,17 +321,19 @@ void LinkTracer::meet_first(RayBatch& wave) const
              .weight = hit.tint,
              .distance = at.end == LinkNumbers::kSky ? NearLink::kNoHit : hit.distance,
              .end = LinkEnd::of(at.end)});
-        if (is_lumel)
+        if (is_lumel) {
+            const bool half = parts_.is_half_covered(at.lumel);
+            const float near_for_light = direct_.varies(at.lumel) ? kNearSides : kNearForCells;
             wave.arrivals.push_back(
                 {.ray = r,
                  .path = path,
                  .lumel = at.lumel,
                  .cell = at.cell,
                  .position = at.position,
-                 .may_be_hidden = parts_.is_cut(at.lumel) || at.sides < kMayBeHidden,
-                 .looks_around = at.sides < (direct_.varies(at.lumel) ? kNearSides : kNearForCells),
-                 .goes_on = at.sides < kNearSides});
-        else if (at.end == LinkNumbers::kSky)
+                 .may_be_hidden = parts_.hides(at.lumel) || at.sides < kMayBeHidden,
+                 .looks_around = half || at.sides < near_for_light,
+                 .goes_on = half || at.sides < kNearSides});
+        } else if (at.end == LinkNumbers::kSky)
             wave.paths.back().light = hit.tint * kPi * work_.sources.dim_sky(ray.direction);
     }
 }
@@ -341,16 +353,16 @@ void LinkTracer::meet(RayBatch& wave, int reflections) const
                 path.light += path.weight * kPi * work_.sources.dim_sky(ray.direction);
             continue;
         }
-        const bool is_near = reflections < kMaxReflections && at.sides < kTooNear;
-        wave.arrivals.push_back(
-            {.ray = r,
-             .path = wave.of[r],
-             .lumel = at.lumel,
-             .cell = at.cell,
-             .position = at.position,
-             .may_be_hidden = parts_.is_cut(at.lumel) || at.sides < kMayBeHidden,
-             .looks_around = is_near,
-             .goes_on = is_near});
+        const bool is_near = reflections < kMaxReflections &&
+                             (at.sides < kTooNear || parts_.is_half_covered(at.lumel));
+        wave.arrivals.push_back({.ray = r,
+                                 .path = wave.of[r],
+                                 .lumel = at.lumel,
+                                 .cell = at.cell,
+                                 .position = at.position,
+                                 .may_be_hidden = parts_.hides(at.lumel) || at.sides < kMayBeHidden,
+                                 .looks_around = is_near,
+                                 .goes_on = is_near});
     }
 }
 

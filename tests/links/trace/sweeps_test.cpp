@@ -90,8 +90,7 @@ std::vector<Link> links_of(const TracedRoom& room)
     return all;
 }
 
-/// C + K ρ X of each sub-lumel: the mean over its rays of what they meet. One without rays has the
-/// mean of its lumel.
+/// C + K ρ X of each sub-lumel: the mean over its rays of what they meet. One without rays is dark.
 Light swept(const TracedRoom& room, const std::vector<Link>& links, const Light& light)
 {
     Light sum(room.source.light.begin(), room.source.light.end());
@@ -100,19 +99,8 @@ Light swept(const TracedRoom& room, const std::vector<Link>& links, const Light&
                           glm::dvec3(room.work.lumels()[room.parts.lumel(link.to)].albedo) *
                           light[link.to];
     const std::vector<std::uint32_t>& rays = room.source.rays;
-    for (std::size_t i = 0; i < room.work.lumels().size(); ++i) {
-        glm::dvec3 of_lumel(0.0);
-        double all = 0.0;
-        for (std::uint32_t p = room.parts.first(i); p < room.parts.end(i); ++p) {
-            of_lumel += sum[p];
-            all += double(rays[p]);
-        }
-        for (std::uint32_t p = room.parts.first(i); p < room.parts.end(i); ++p)
-            if (rays[p] > 0)
-                sum[p] /= double(rays[p]);
-            else
-                sum[p] = all > 0.0 ? of_lumel / all : glm::dvec3(0.0);
-    }
+    for (std::size_t p = 0; p < sum.size(); ++p)
+        sum[p] = rays[p] > 0 ? sum[p] / double(rays[p]) : glm::dvec3(0.0);
     return sum;
 }
 
