@@ -72,6 +72,7 @@ void set_links(const Command& command, const GivenLinks& links, BakeOptions& opt
                         "cannot be given with --links, which fixes the number of rays");
     method->even_rays = links.rays;
     options.solver.target_error = options.solver.target_eye_error = 0.0;
+    options.solver.max_shots = 0;
 }
 
 }  // namespace

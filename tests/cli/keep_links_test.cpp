@@ -266,6 +266,16 @@ TEST(KeepLinks, RelightOfABakeToAnErrorIsThatBake)
     EXPECT_LE(std::sqrt(squares / double(baked.values.size())), kResidual * mean);
 }
 
+TEST(Links, AreAsManyAsGiven)
+{
+    const Workplace place;
+    const std::string out = place.path("out");
+    const Outcome baked = run_lumel({"bake", own_scene("cornell-box.gltf"), out, "--size", "16",
+                                     "--links", "384", "--preview-width", "0", "-q"});
+    ASSERT_EQ(baked.code, 0) << baked.err;
+    EXPECT_EQ(Json::parse(bytes_of(out + "/report.json"))["solution"]["shots"], 384);
+}
+
 TEST(KeepLinks, RefusesWhatItCannotKeepOrLight)
 {
     const Box box;

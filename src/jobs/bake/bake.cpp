@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "jobs/bake/advice.h"
 #include "jobs/bake/outputs.h"
 #include "jobs/edit/kept_solution.h"
 #include "jobs/inspect/probes.h"
@@ -96,6 +97,8 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     if (!lit && has_sources(setting.prepared))
         stages.warn("no light reaches any surface: the lightmap is black");
     stages.begin("finishing");
+    for (const std::string& sentence : advice(setting.prepared))
+        stages.tell(sentence);
     const Results results{.shots = solved.shots,
                           .iterations = solved.iterations,
                           .error = lit ? solved.error : -1.0,

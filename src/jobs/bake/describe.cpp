@@ -12,6 +12,7 @@
 #include "base/core/error.h"
 #include "base/json/json_file.h"
 #include "gpu/device.h"
+#include "jobs/bake/advice.h"
 #include "jobs/bake/bake.h"
 #include "jobs/solve/memory_plan.h"
 #include "jobs/solve/sources.h"
@@ -181,7 +182,10 @@ Json facts(const SampledScene& sampled, const BakeOptions& options)
         !text.empty())
         warnings.push_back(std::move(text));
     json["warnings"] = warnings;
-    json["notes"] = prepared.atlas.notes;
+    std::vector<std::string> notes = prepared.atlas.notes;
+    for (std::string& sentence : advice(prepared))
+        notes.push_back(std::move(sentence));
+    json["notes"] = notes;
     return json;
 }
 

@@ -1,5 +1,6 @@
 // LinkRadiosity over links of an earlier run: rounds traced again, and stored.
 
+#include <algorithm>
 #include <cmath>
 
 #include "links/trace/links.h"
@@ -103,7 +104,10 @@ std::uint64_t LinkRadiosity::traced() const
 std::uint64_t LinkRadiosity::sent() const
 {
     std::uint64_t rays = 0;
-    for_each_block([&](const LinkBlock& block) { rays += block.ends.size(); });
+    for_each_block([&](const LinkBlock& block) {
+        rays += std::uint64_t(std::ranges::count_if(
+            block.ends, [](LinkEnd end) { return end.number() != LinkNumbers::kHidden; }));
+    });
     return rays;
 }
 

@@ -1,0 +1,86 @@
+#include "jobs/bake/advice.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/core/luminance.h"
+#include "scene/values/sky.h"
+
+namespace lumel {
+namespace {
+
+/// Fraction of the lumels that one object, or back sides, may have without a word.
+constexpr double kMuch = 0.6, kManyBacks = 0.4;
+/// Objects below this number do not take much from each other.
+constexpr std::size_t kFewObjects = 4;
+/// A clear sky gives about a tenth of the sun's light, a hazy one more.
+constexpr double kDarkSky = 0.02;
+
+std::string percent(double fraction)
+{
+    return fmt::format("{:.0f} %", 100.0 * fraction);
+}
+
+/// The object with most lumels, if it has too many.
+std::string of_objects(const SolveScene& prepared)
+{
+    const std::vector<Instance>& instances = prepared.scene.instances;
+    if (instances.size() < kFewObjects)
+        return {};
+    std::vector<std::size_t> lumels(instances.size(), 0);
+    for (const Lumel& lumel : prepared.lumels.lumels)
+        ++lumels[lumel.instance];
+    const auto most = std::max_element(lumels.begin(), lumels.end());
+    const double share = double(*most) / double(prepared.lumels.lumels.size());
+    const std::string& name = instances[std::size_t(most - lumels.begin())].name;
+    if (!(share > kMuch) || name.empty())
+        return {};
+    return fmt::format("\"{}\" has {} of the lumels; --coarse-afar or --density \"{}={:.3g}\" "
+                       "leaves more of them to the rest",
+                       name, percent(share), name, 0.5 * double(prepared.atlas.texels_per_metre));
+}
+
+std::string of_back_sides(const SolveScene& prepared)
+{
+    const std::vector<Lumel>& lumels = prepared.lumels.lumels;
+    const auto backs = std::count_if(lumels.begin(), lumels.end(), [](const Lumel& lumel) {
+        return (lumel.flags & kLumelBack) != 0;
+    });
+    const double share = double(backs) / double(std::max<std::size_t>(lumels.size(), 1));
+    if (!(share > kManyBacks))
+        return {};
+    return fmt::format("{} of the lumels are on back sides of double-sided materials; where nobody "
+                       "sees those, single-sided materials (in Blender: Backface Culling) bake "
+                       "faster",
+                       percent(share));
+}
+
+std::string of_daylight(const Scene& scene)
+{
+    const double sky = luminance(glm::vec3(sky_irradiance(scene.sky)));
+    double sun = 0.0;
+    for (const PunctualLight& light : scene.lights)
+        if (light.kind == PunctualLight::Kind::directional) {
+            const double up = double(glm::normalize(glm::vec3(light.transform[2])).y);
+            sun += luminance(light.intensity * light.color) * std::max(up, 0.0);
+        }
+    if (!(sky > 0.0) || !(sky < kDarkSky * sun))
+        return {};
+    return fmt::format("the sky gives {:.3g} lx on open ground and the sun {:.3g} lx, so shadows "
+                       "are nearly black; outdoors a sky gives about a tenth of the sun, see "
+                       "--sky and --sky-scale",
+                       sky, sun);
+}
+
+}  // namespace
+
+std::vector<std::string> advice(const SolveScene& prepared)
+{
+    std::vector<std::string> sentences{of_objects(prepared), of_back_sides(prepared),
+                                       of_daylight(prepared.scene)};
+    std::erase(sentences, std::string());
+    return sentences;
+}
+
+}  // namespace lumel

@@ -1,0 +1,82 @@
+// What bake and info say about a scene: only what helps.
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "../support/box_lumels.h"
+#include "../support/source_folder.h"
+#include "jobs/bake/advice.h"
+
+namespace lumel {
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+void add(Scene& scene, const std::string& name, float side, const glm::vec3& corner,
+         bool double_sided = false)
+{
+    support::add_quad(scene, {.corner = corner,
+                              .edge_u = {0.0f, 0.0f, side},
+                              .edge_v = {side, 0.0f, 0.0f},
+                              .double_sided = double_sided});
+    scene.instances.back().name = name;
+}
+
+/// A ground with three tables.
+Scene tables(float ground, bool double_sided = false)
+{
+    Scene scene;
+    add(scene, "ground", ground, glm::vec3(0.0f));
+    for (int t = 0; t < 3; ++t)
+        add(scene, "table", 2.0f, {3.0f * float(t), 1.0f, 0.0f}, double_sided);
+    return scene;
+}
+
+Sentences advice_on(const Scene& scene)
+{
+    return advice(SolveScene(scene, {.size = 128}));
+}
+
+/// Expects one sentence with these words.
+void expect_one(const Sentences& sentences, const Sentences& words)
+{
+    ASSERT_EQ(sentences.size(), 1u);
+    for (const std::string& word : words)
+        EXPECT_NE(sentences[0].find(word), std::string::npos) << word << ": " << sentences[0];
+}
+
+TEST(Advice, IsSilentOnUsualScenes)
+{
+    for (const char* name : {"scenes/cornell-box.gltf", "scenes/room.gltf", "scenes/city.gltf"})
+        EXPECT_EQ(advice_on(read_gltf(support::source_path(name))), Sentences()) << name;
+    EXPECT_EQ(advice_on(tables(3.0f)), Sentences());
+}
+
+TEST(Advice, NamesAGroundThatTakesTheLumels)
+{
+    expect_one(advice_on(tables(10.0f)), {"\"ground\"", "--density"});
+}
+
+TEST(Advice, TellsOfBackSides)
+{
+    SolveScene world(tables(1.0f, true), {.size = 64, .sides = Sides::both});
+    expect_one(advice(world), {"back sides", "single-sided"});
+}
+
+TEST(Advice, TellsOfASkyThatIsDarkBesideTheSun)
+{
+    PunctualLight sun{.kind = PunctualLight::Kind::directional, .intensity = 1e5f};
+    sun.transform = glm::rotate(glm::mat4(1.0f), -1.2f, glm::vec3(1.0f, 0.0f, 0.0f));
+    Scene scene = tables(3.0f);
+    scene.lights.push_back(sun);
+    EXPECT_EQ(advice_on(scene), Sentences());  // no sky, as indoors at night
+    add_lights(scene, {.sky_color = glm::vec3(1.0f)});
+    expect_one(advice_on(scene), {"3.14 lx", "--sky-scale"});
+    scene.sky = {};
+    add_lights(scene, {.sky_color = glm::vec3(3e3f)});
+    EXPECT_EQ(advice_on(scene), Sentences());
+}
+
+}  // namespace
+}  // namespace lumel
