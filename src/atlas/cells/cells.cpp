@@ -212,6 +212,9 @@ bool SeenCells::sees(const LumelPoint& from, std::uint32_t cell) const
 
 std::uint32_t SeenCells::nearest(const LumelPoint& from) const
 {
+    const std::uint32_t own = points_.nearest(from.position);
+    if (points_.has(own) && sees(from, own))
+        return own;
     std::array<std::pair<float, std::uint32_t>, kCells> by_distance;
     std::size_t count = 0;
     for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
@@ -221,7 +224,7 @@ std::uint32_t SeenCells::nearest(const LumelPoint& from) const
         }
     std::sort(by_distance.begin(), by_distance.begin() + std::ptrdiff_t(count));
     for (std::size_t n = 0; n < count; ++n)
-        if (sees(from, by_distance[n].second))
+        if (by_distance[n].second != own && sees(from, by_distance[n].second))
             return by_distance[n].second;
     return kNoCell;
 }
@@ -267,7 +270,7 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
             join_along(seen, -1, 1, joined);
             parts_[i] = std::uint8_t(number_parts(seen.points(), joined, code_[i]));
             if (is_cut(i) || has_sliver(world, i, seen))
-                flags_[i] |= kHides;
+                flags_[i] |= kHasHidden;
             if (lumel::is_half_covered(world, rays, i, seen.points(), seed_of(i)))
                 flags_[i] |= kHalfCovered;
         }

@@ -118,15 +118,15 @@ public:
     std::uint32_t first(std::size_t lumel) const { return first_[lumel]; }
     std::uint32_t end(std::size_t lumel) const { return first_[lumel] + parts_[lumel]; }
     bool is_cut(std::size_t lumel) const { return parts_[lumel] > 1; }
-    /// True if its points may not see their own cell: if it is cut, or a sliver of it is behind
-    /// other geometry.
-    bool hides(std::size_t lumel) const { return (flags_[lumel] & kHides) != 0; }
-    /// True if geometry closer than the lumel's size covers some of it: light can change there more
-    /// than cells tell, as where a lamp hangs just below a ceiling.
+    /// True if some of its points do not see their own cell: if it is cut, or a sliver of it is
+    /// behind other geometry.
+    bool has_hidden(std::size_t lumel) const { return (flags_[lumel] & kHasHidden) != 0; }
+    /// True if geometry closer than the lumel's size covers some of it, but not all: light can
+    /// change there more than cells tell, as where a lamp hangs just below a ceiling.
     bool is_half_covered(std::size_t lumel) const { return (flags_[lumel] & kHalfCovered) != 0; }
     /// True for either: light at a hit is not just that of its cell.
     bool is_detailed(std::size_t lumel) const { return flags_[lumel] != 0; }
-    /// Of a lumel that hides points.
+    /// Of a lumel with hidden points.
     SeenCells seen_cells(std::size_t lumel) const;
     /// The sub-lumel of a cell.
     std::uint32_t part(std::size_t lumel, std::uint32_t cell) const
@@ -136,7 +136,7 @@ public:
     std::uint32_t lumel(std::size_t part) const { return lumel_[part]; }
 
 private:
-    static constexpr std::uint8_t kHides = 1, kHalfCovered = 2;
+    static constexpr std::uint8_t kHasHidden = 1, kHalfCovered = 2;
 
     std::uint32_t seed_of(std::size_t lumel) const;
 

@@ -10,9 +10,9 @@
 namespace lumel {
 namespace {
 
-/// Fraction of the lumels that one object, or back sides, may have without a word.
+/// Above these fractions of the lumels, advice is given on an object, and on back sides.
 constexpr double kMuch = 0.6, kManyBacks = 0.4;
-/// Objects below this number do not take much from each other.
+/// Scenes of fewer objects get no advice on them.
 constexpr std::size_t kFewObjects = 4;
 /// A clear sky gives about a tenth of the sun's light, a hazy one more.
 constexpr double kDarkSky = 0.02;
@@ -23,10 +23,11 @@ std::string percent(double fraction)
 }
 
 /// The object with most lumels, if it has too many.
-std::string of_objects(const SolveScene& prepared)
+std::string of_objects(const SolveScene& prepared, const AtlasOptions& chosen)
 {
     const std::vector<Instance>& instances = prepared.scene.instances;
-    if (instances.size() < kFewObjects)
+    const bool is_chosen = chosen.coarse_afar || !chosen.densities.empty();
+    if (instances.size() < kFewObjects || is_chosen || chosen.texels_per_metre > 0.0f)
         return {};
     std::vector<std::size_t> lumels(instances.size(), 0);
     for (const Lumel& lumel : prepared.lumels.lumels)
@@ -65,19 +66,19 @@ std::string of_daylight(const Scene& scene)
             const double up = double(glm::normalize(glm::vec3(light.transform[2])).y);
             sun += luminance(light.intensity * light.color) * std::max(up, 0.0);
         }
-    if (!(sky > 0.0) || !(sky < kDarkSky * sun))
+    if (!(sky < kDarkSky * sun))
         return {};
-    return fmt::format("the sky gives {:.3g} lx on open ground and the sun {:.3g} lx, so shadows "
-                       "are nearly black; outdoors a sky gives about a tenth of the sun, see "
-                       "--sky and --sky-scale",
-                       sky, sun);
+    return fmt::format("the sky gives {} lx on open ground and the sun {:.0f} lx, so shadows are "
+                       "nearly black; outdoors a sky gives about a tenth of the sun, see --sky and "
+                       "--sky-scale",
+                       sky < 10.0 ? fmt::format("{:.2g}", sky) : fmt::format("{:.0f}", sky), sun);
 }
 
 }  // namespace
 
-std::vector<std::string> advice(const SolveScene& prepared)
+std::vector<std::string> advice(const SolveScene& prepared, const AtlasOptions& chosen)
 {
-    std::vector<std::string> sentences{of_objects(prepared), of_back_sides(prepared),
+    std::vector<std::string> sentences{of_objects(prepared, chosen), of_back_sides(prepared),
                                        of_daylight(prepared.scene)};
     std::erase(sentences, std::string());
     return sentences;

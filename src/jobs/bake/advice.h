@@ -8,9 +8,8 @@
 
 namespace lumel {
 
-/// At most three sentences for the user, each with what helps: on things that take most
-/// of the lumels, on back sides, and on a sky that is far too dark beside the sun. Usual scenes get
-/// none.
-std::vector<std::string> advice(const SolveScene& prepared);
+/// Up to three sentences of advice, each with what helps: on an object with most of the lumels,
+/// unless densities are chosen; on back sides; and on a sky that is far too dark beside the sun.
+std::vector<std::string> advice(const SolveScene& prepared, const AtlasOptions& chosen);
 
 }  // namespace lumel

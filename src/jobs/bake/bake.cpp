@@ -97,7 +97,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     if (!lit && has_sources(setting.prepared))
         stages.warn("no light reaches any surface: the lightmap is black");
     stages.begin("finishing");
-    for (const std::string& sentence : advice(setting.prepared))
+    for (const std::string& sentence : advice(setting.prepared, options.atlas))
         stages.tell(sentence);
     const Results results{.shots = solved.shots,
                           .iterations = solved.iterations,

@@ -183,7 +183,7 @@ Json facts(const SampledScene& sampled, const BakeOptions& options)
         warnings.push_back(std::move(text));
     json["warnings"] = warnings;
     std::vector<std::string> notes = prepared.atlas.notes;
-    for (std::string& sentence : advice(prepared))
+    for (std::string& sentence : advice(prepared, options.atlas))
         notes.push_back(std::move(sentence));
     json["notes"] = notes;
     return json;

@@ -231,10 +231,14 @@ void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t 
             const RayOrigin start = work_.starts.start(i, samples.stratified(kLumelPair));
             const Choice choice = alone ? Choice{to.source, 1.0f}
                                         : choose(*to.rest, samples.stratified(kLampChoicePair).x);
-            look(start, choice.source, choice.factor, samples.stratified(kLampPair),
-                 samples.bits(kLampPair), wave.looks);
-            wave.cells.push_back(seen ? seen->nearest_or({start.position, start.normal}, start.cell)
-                                      : start.cell);
+            const std::uint32_t cell =
+                seen ? seen->nearest_or({start.position, start.normal}, start.cell) : start.cell;
+            if (cell == kNoCell)
+                wave.looks.add({}, {});
+            else
+                look(start, choice.source, choice.factor, samples.stratified(kLampPair),
+                     samples.bits(kLampPair), wave.looks);
+            wave.cells.push_back(cell);
         }
     }
 }
@@ -245,7 +249,7 @@ void DirectEstimator::add(std::uint32_t i, RayBatch& wave) const
     const Lumel& lumel = work_.lumels()[i];
     std::vector<float> rest;
     std::optional<SeenCells> seen;
-    if (parts_ && parts_->hides(i))
+    if (parts_ && parts_->has_hidden(i))
         seen.emplace(parts_->seen_cells(i));
     if (!(lumel.flags & kLumelBuried))
         for (const RaysTo& to :
@@ -280,8 +284,21 @@ void DirectEstimator::take(const Group& group, std::uint32_t i, const RayBatch& 
     found.exact = found.exact && of_both.exact;
     if (of_both.free > 0)
         found.seen |= 1u << (group.alone ? group.source % 32 : 31);
-    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
-        found.cells[c] += (of_cells[c].rays > 0 ? of_cells[c] : of_parts[part(c)]).light();
+    // The ratios of a few rays are biased: those of cells have the mean of their sub-lumel.
+    std::array<glm::vec3, kMaxParts> sum{};
+    std::array<float, kMaxParts> rays{};
+    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c) {
+        sum[part(c)] += float(of_cells[c].rays) * of_cells[c].light();
+        rays[part(c)] += float(of_cells[c].rays);
+    }
+    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c) {
+        const std::uint32_t p = part(c);
+        const glm::vec3 mean = of_parts[p].light();
+        glm::vec3 light = of_cells[c].rays > 0 ? of_cells[c].light() : mean;
+        for (int k = 0; of_cells[c].rays > 0 && k < 3; ++k)
+            light[k] *= sum[p][k] > 0.0f ? rays[p] * mean[k] / sum[p][k] : 1.0f;
+        found.cells[c] += light;
+    }
 }
 
 void DirectEstimator::take(const RayBatch& wave)
@@ -291,7 +308,7 @@ void DirectEstimator::take(const RayBatch& wave)
         Found found;
         for (std::uint32_t g = wave.groups_before[k]; g < wave.groups_before[k + 1]; ++g)
             take(wave.groups[g], i, wave, found);
-        // Cells are used only if all sources have exact unoccluded light.
+        // Cells are used only if all sources have exact unoccluded light, or the lumel is cut.
         if (more_[i] == 0 && !found.exact && !is_cut(i))
             found.cells.fill(0.5f * (found.half[0] + found.half[1]));
         keep(i, found, blocks_[(wave.first + k) / kBlock]);

@@ -40,7 +40,7 @@ bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const S
 
 LinkNumbers::LinkNumbers(std::size_t instances, std::size_t parts)
     : first_part_(std::uint32_t(kFirst + 2 * instances)),
-      count_(std::uint32_t(first_part_ + parts))
+      count_(std::uint32_t(first_part_ + parts + 1))
 {
     if (!fit(instances, parts))
         throw Error(ErrorKind::input, std::to_string(parts) + " lumels",

@@ -30,21 +30,19 @@ struct LinkEnd {
     friend bool operator==(const LinkEnd&, const LinkEnd&) = default;
 };
 
-/// Numbers of ends: some fixed ones, then two of each instance, then sub-lumels.
+/// Numbers of ends: some fixed ones, then two of each instance, then sub-lumels, then hidden().
 class LinkNumbers {
 public:
     static constexpr std::uint32_t kBelow = 0;  ///< left below its own surface: black
     static constexpr std::uint32_t kSky = 1;
     static constexpr std::uint32_t kNear = 2;  ///< the NearLink of this ray has the end
-    /// Begins where no cell of its lumel can be seen, as behind a wall's foot: does not count.
-    static constexpr std::uint32_t kHidden = 3;
 
     /// Throws Error{input} unless they fit.
     LinkNumbers(std::size_t instances, std::size_t parts);
 
     static bool fit(std::size_t instances, std::size_t parts)
     {
-        return kFirst + 2 * instances + parts <= LinkEnd::kMaxNumber;
+        return kFirst + 2 * instances + parts < LinkEnd::kMaxNumber;
     }
     /// Absorbed by the back of a single-sided surface.
     std::uint32_t black_on(std::uint32_t instance) const { return kFirst + 2 * instance; }
@@ -52,7 +50,10 @@ public:
     std::uint32_t lost_on(std::uint32_t instance) const { return kFirst + 2 * instance + 1; }
     std::uint32_t of_part(std::uint32_t part) const { return first_part_ + part; }
 
-    bool is_part(std::uint32_t number) const { return number >= first_part_; }
+    /// Begins where no cell of its lumel can be seen, as behind a wall's foot: does not count.
+    std::uint32_t hidden() const { return count_ - 1; }
+
+    bool is_part(std::uint32_t number) const { return number >= first_part_ && number < hidden(); }
     bool is_lost(std::uint32_t number) const
     {
         return number >= kFirst && number < first_part_ && (number - kFirst) % 2 == 1;
@@ -61,7 +62,7 @@ public:
     std::uint32_t count() const { return count_; }
 
 private:
-    static constexpr std::uint32_t kFirst = 4;
+    static constexpr std::uint32_t kFirst = 3;
     std::uint32_t first_part_, count_;
 };
 
@@ -69,7 +70,7 @@ private:
 /// light changes within a lumel, but is stored per sub-lumel only.
 inline constexpr float kNearSides = 2.0f;
 
-/// A ray whose first hit is near, or that crossed glass.
+/// A ray whose first hit is near or on a half-covered lumel, or that crossed glass.
 struct NearLink {
     static constexpr float kNoHit = std::numeric_limits<float>::max();
 

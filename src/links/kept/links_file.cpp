@@ -34,7 +34,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
-// 1: rays by the number of a lumel; 2: one number of rays, in a grid of directions
+// 5: origins that see no cell of their lumel, and one set of shared directions
 constexpr std::uint64_t kVersion = 5;
 constexpr std::uint32_t kMaxSide = 65536;  ///< side of an atlas [texels]
 constexpr std::uint32_t kWord = 64;        ///< [bits]

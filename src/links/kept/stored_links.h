@@ -36,7 +36,7 @@ struct StoredLinks {
 
     std::string scene_hash;                ///< Scene::hash of the baked scene
     std::uint32_t seed = 0;                ///< LinksOptions::seed
-    std::uint8_t shared_directions = 0;    ///< 1: of all lumels, as by raster; any byte in a file
+    std::uint8_t shared_directions = 0;    ///< not 0: all lumels draw from one set
     float ray_offset = 0.0f;               ///< distance of ray origins from surfaces [m]
     std::vector<std::uint64_t> lumels;     ///< [N] lumel_hashes()
     std::vector<std::uint64_t> instances;  ///< [I] instance_hashes()

@@ -80,7 +80,7 @@ void FinalGather::take(std::size_t last)
 void FinalGather::take(const LinkRow& row, std::size_t i)
 {
     const auto add = [&](LinkEnd end, const glm::vec3& weight, const glm::vec3& light) {
-        if (numbers_.is_lost(end.number()) || end.number() == LinkNumbers::kHidden)
+        if (numbers_.is_lost(end.number()) || end.number() == numbers_.hidden())
             return;
         ++rays_[i];
         sum_[i] += light;

@@ -83,7 +83,7 @@ public:
     StoredLinks kept(const std::string& hash) const;
     /// Rays that lumels have sent, without the known ones.
     std::uint64_t traced() const;
-    std::uint64_t sent() const;  ///< all
+    std::uint64_t sent() const;  ///< all that begin in sight
 
     void write_state(StateWriter& writer) override;
     void read_state(StateReader& reader) override;

@@ -11,7 +11,7 @@ namespace {
 
 /// Fraction of rays allocated uniformly.
 constexpr double kEvenShare = 0.25;
-/// First rays of a cut lumel: the light of a sub-lumel without rays is not known.
+/// First rays of a cut lumel, if memory allows: each sub-lumel has a share of them only.
 constexpr std::uint16_t kFirstOfCut = 32;
 /// Bisection steps for the rays that all lumels add.
 constexpr int kFillSteps = 24;
@@ -90,9 +90,10 @@ void LinkRadiosity::share_out_rays()
 {
     rays_.assign(work_.order.size(), std::uint16_t(std::lround(mean_rays_)));
     if (state_.shots == 0) {
-        for (std::size_t i = 0; options_.even_rays == 0 && i < rays_.size(); ++i)
-            if (parts_->is_cut(i))
-                rays_[i] = std::max(rays_[i], kFirstOfCut);
+        if (options_.even_rays == 0 && rays_that_fit() >= double(kFirstOfCut))
+            for (std::size_t i = 0; i < rays_.size(); ++i)
+                if (parts_->is_cut(i))
+                    rays_[i] = std::max(rays_[i], kFirstOfCut);
         return;
     }
     const std::vector<double> sent = rays_so_far(), deviation = deviation_of_ray(sent);

@@ -31,6 +31,23 @@ void for_each_row(const LinkWork& work, const SubLumels& parts, const LinkTable&
     });
 }
 
+/// [P] 1 for sub-lumels of cut lumels from which no ray was sent: what they receive is not known.
+std::vector<char> unknown_parts(const LinkWork& work, const SubLumels& parts,
+                                const LinkNumbers& numbers, const LinkTable& links)
+{
+    std::vector<char> unknown(parts.count(), 0);
+    for (std::size_t i = 0; i < work.order.size(); ++i)
+        if (parts.is_cut(i))
+            std::fill(unknown.begin() + parts.first(i), unknown.begin() + parts.end(i), char(1));
+    for_each_row(work, parts, links, [&](const LinkRow& row, std::uint32_t i) {
+        if (parts.is_cut(i))
+            for (std::size_t k = 0; k < row.ends.size(); ++k)
+                if (row.ends[k].number() != numbers.hidden())
+                    unknown[parts.first(i) + row.leaves(parts, i, k)] = 0;
+    });
+    return unknown;
+}
+
 }  // namespace
 
 ReflectedLight::ReflectedLight(const LinkWork& work, const SubLumels& parts,
@@ -63,6 +80,7 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
 {
     SourceTerm sum{std::vector<glm::vec3>(parts.count(), glm::vec3(0.0f)),
                    std::vector<std::uint32_t>(parts.count(), 0)};
+    const std::vector<char> unknown = unknown_parts(work, parts, numbers, links);
     std::vector<char> loses(work.order.size(), 0);
     for_each_row(work, parts, links, [&](const LinkRow& row, std::uint32_t i) {
         const std::uint32_t first = parts.first(i);
@@ -77,7 +95,8 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
             } else {
                 light = reflected.at(end);
             }
-            if (end.number() == LinkNumbers::kHidden)
+            if (end.number() == numbers.hidden() ||
+                (numbers.is_part(end.number()) && unknown[numbers.part(end.number())]))
                 continue;
             if (!numbers.is_part(end.number()))
                 loses[i] = 1;
@@ -108,7 +127,8 @@ RayDistances find_distances(const LinkWork& work, const SubLumels& parts,
     for (const LinkTable* links : tables)
         for_each_row(work, parts, *links, [&](const LinkRow& row, std::uint32_t i) {
             const WorldLumel& lumel = work.world[i];
-            rays[i] += std::uint32_t(row.ends.size());
+            rays[i] += std::uint32_t(std::ranges::count_if(
+                row.ends, [&](LinkEnd end) { return end.number() != numbers.hidden(); }));
             for (const LinkEnd end : row.ends) {
                 if (!numbers.is_part(end.number()))
                     continue;

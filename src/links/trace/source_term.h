@@ -16,7 +16,7 @@ namespace lumel {
 
 struct SourceTerm {
     std::vector<glm::vec3> light;     ///< [P] Σ over rays of reflected direct light, and sky [lx]
-    std::vector<std::uint32_t> rays;  ///< [P] rays that count
+    std::vector<std::uint32_t> rays;  ///< [P] rays that count: not those to sub-lumels without any
     bool is_closed = false;           ///< all rays hit reflecting surfaces
 };
 

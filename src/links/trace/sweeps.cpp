@@ -154,7 +154,8 @@ private:
         const std::uint32_t first = parts.first(i), last = parts.end(i);
         const Lumel& lumel = solver_.work_.lumels()[i];
         const auto add = [&](std::size_t k, LinkEnd to, const glm::vec3& weight) {
-            if (!solver_.numbers_.is_part(to.number()))
+            if (!solver_.numbers_.is_part(to.number()) ||
+                system.source.rays[solver_.numbers_.part(to.number())] == 0)
                 return;
             const std::uint32_t p = first + row.leaves(parts, i, k), a = solver_.group_[p];
             const double share = double(lumel.area) / double(last - first) /
@@ -250,7 +251,7 @@ LinkSolver::Change LinkSolver::sweep_block(const System& system, std::size_t b, 
         for (LinkRows& rows : rounds)
             add_row(rows.next(parts_.is_cut(i)), parts_, i, sent, sums);
         for (std::uint32_t p = first; p < last; ++p) {
-            // Without rays its light is not known; that of the lumel's other parts would leak.
+            // Links to one without rays do not count: that of its lumel's other parts would leak.
             const std::uint32_t rays = system.source.rays[p];
             received[p] = rays > 0 ? glm::vec3(sums[p - first]) / float(rays) : glm::vec3(0.0f);
             const std::uint32_t n = numbers_.of_part(p);

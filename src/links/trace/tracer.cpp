@@ -46,7 +46,8 @@ struct LinkTracer::Landing {
     glm::vec3 position{0.0f};
 };
 
-/// A ray that needs more than its first hit: one near its lumel, behind glass, or on a cut lumel.
+/// A ray that needs more than its first hit: one near its lumel, behind glass, or on a lumel that
+/// is cut, half covered or has hidden points.
 struct LinkTracer::Path {
     PathSamples samples;
     std::uint32_t slot;
@@ -146,8 +147,7 @@ std::span<const LinkEnd> LinkTracer::Known::of(std::size_t i, std::size_t rays) 
 std::optional<LinkEnd> LinkTracer::still(LinkEnd stored, const Known& known) const
 {
     const std::uint32_t number = stored.number();
-    if (number == LinkNumbers::kNear || number == LinkNumbers::kHidden ||
-        known.changes.ends[number])
+    if (number == LinkNumbers::kNear || number == stored_.hidden() || known.changes.ends[number])
         return std::nullopt;
     return stored_.is_part(number)
                ? LinkEnd::of(numbers_.of_part(parts_.part(stored_.part(number), stored.cell())),
@@ -176,9 +176,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         shared.emplace(*sending.shared);
     const std::span<const LinkEnd> known =
         sending.known ? sending.known->of(i, rays) : std::span<const LinkEnd>();
-    std::optional<SeenCells> seen;
-    if (parts_.hides(i) && rays > 0)
-        seen.emplace(parts_.seen_cells(i));
+    std::optional<SeenCells> seen;  // made for the first ray that needs it
     glm::vec3 axis(0.0f);
     glm::mat3 frame(0.0f);
     for (std::uint32_t k = 0; k < rays; ++k) {
@@ -186,17 +184,19 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         if (!known.empty())
             end = still(known[k], *sending.known);
         const bool is_sky = end && end->number() == LinkNumbers::kSky;
-        if (end && !seen && !is_sky && sending.known->changes.moved.empty()) {
+        if (end && !parts_.is_cut(i) && !is_sky && sending.known->changes.moved.empty()) {
             wave.ends.push_back(*end);
             wave.from.push_back(0);
             continue;
         }
         const PathSamples samples = own[k];
         const RayOrigin start = work_.starts.start(i, samples.stratified(kOriginPair));
+        if (parts_.has_hidden(i) && !seen)
+            seen.emplace(parts_.seen_cells(i));
         const std::uint32_t cell =
             seen ? seen->nearest_or({start.position, start.normal}, start.cell) : start.cell;
         if (cell == kNoCell) {
-            wave.ends.push_back(LinkEnd::of(LinkNumbers::kHidden));
+            wave.ends.push_back(LinkEnd::of(numbers_.hidden()));
             wave.from.push_back(0);
             continue;
         }
@@ -330,7 +330,7 @@ void LinkTracer::meet_first(RayBatch& wave) const
                  .lumel = at.lumel,
                  .cell = at.cell,
                  .position = at.position,
-                 .may_be_hidden = parts_.hides(at.lumel) || at.sides < kMayBeHidden,
+                 .may_be_hidden = parts_.has_hidden(at.lumel) || at.sides < kMayBeHidden,
                  .looks_around = half || at.sides < near_for_light,
                  .goes_on = half || at.sides < kNearSides});
         } else if (at.end == LinkNumbers::kSky)
@@ -355,14 +355,15 @@ void LinkTracer::meet(RayBatch& wave, int reflections) const
         }
         const bool is_near = reflections < kMaxReflections &&
                              (at.sides < kTooNear || parts_.is_half_covered(at.lumel));
-        wave.arrivals.push_back({.ray = r,
-                                 .path = wave.of[r],
-                                 .lumel = at.lumel,
-                                 .cell = at.cell,
-                                 .position = at.position,
-                                 .may_be_hidden = parts_.hides(at.lumel) || at.sides < kMayBeHidden,
-                                 .looks_around = is_near,
-                                 .goes_on = is_near});
+        wave.arrivals.push_back(
+            {.ray = r,
+             .path = wave.of[r],
+             .lumel = at.lumel,
+             .cell = at.cell,
+             .position = at.position,
+             .may_be_hidden = parts_.has_hidden(at.lumel) || at.sides < kMayBeHidden,
+             .looks_around = is_near,
+             .goes_on = is_near});
     }
 }
 
