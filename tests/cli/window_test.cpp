@@ -55,6 +55,18 @@ TEST_F(ViewWindow, AKeyWalksToWhereTheCameraLooks)
     EXPECT_EQ(after["forward"], before["forward"]);
 }
 
+TEST_F(ViewWindow, AKeyWithControlDoesNotWalk)
+{
+    Window window(display(), "wait\nstate ready.json\n");
+    ASSERT_TRUE(window.is_there());
+    ASSERT_TRUE(window.has_written("ready.json"));
+    const Json before = Json::parse(bytes_of(window.place.path("out/ready.json")))["camera"];
+    // The key is down for longer than Ctrl.
+    for (const char* does : {"keydown ctrl keydown d keyup ctrl", "keyup d"})
+        window.hand(does);
+    EXPECT_EQ(window.close()["camera"]["eye"], before["eye"]);
+}
+
 TEST_F(ViewWindow, WhatIsPickedIsDraggedAlongTheFloor)
 {
     Window window(display(), "wait\npick \"short block\"\nstate ready.json\n");

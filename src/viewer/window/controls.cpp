@@ -178,8 +178,6 @@ void Controls::press(const KeyPress& press, ViewSession& session, UiState& desk,
 
 void Controls::hold(ViewSession& session, UiState& desk, const Screen& screen)
 {
-    if (ImGui::GetIO().KeyCtrl)
-        return;
     for (const WalkKey& walk : kWalk)
         if (const float time = time_of(walk.key, screen, desk); time > 0.0f) {
             session.camera().walk(desk.stride * time * walk.steps);

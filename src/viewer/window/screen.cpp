@@ -42,9 +42,14 @@ void find(Function& function, const char* name)
 /// Also counts a key pressed and released between two frames.
 void on_key(GLFWwindow* window, int key, int, int action, int with)
 {
-    if (action != GLFW_RELEASE)
-        static_cast<std::vector<KeyPress>*>(glfwGetWindowUserPointer(window))
-            ->push_back({key, (with & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
+    Keys& keys = *static_cast<Keys*>(glfwGetWindowUserPointer(window));
+    const bool control = (with & GLFW_MOD_CONTROL) != 0;
+    if (action == GLFW_RELEASE)
+        keys.with_control.erase(key);
+    else
+        keys.pressed.push_back({key, control, action == GLFW_REPEAT});
+    if (action == GLFW_PRESS && control)
+        keys.with_control.insert(key);
 }
 
 }  // namespace
@@ -110,7 +115,7 @@ void Screen::open(const std::string& title, const glm::ivec2& size)
     gl_->bind_texture(GL_TEXTURE_2D, texture_);
     gl_->tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl_->tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glfwSetWindowUserPointer(window_, &pressed_);
+    glfwSetWindowUserPointer(window_, &keys_);
     glfwSetKeyCallback(window_, on_key);
 }
 
@@ -142,7 +147,7 @@ glm::ivec2 Screen::size() const
 
 bool Screen::holds(int key) const
 {
-    return glfwGetKey(window_, key) == GLFW_PRESS;
+    return glfwGetKey(window_, key) == GLFW_PRESS && !keys_.with_control.contains(key);
 }
 
 void Screen::take(const Image& picture)
@@ -169,7 +174,7 @@ void* Screen::texture() const
 
 void Screen::begin(double seconds)
 {
-    pressed_.clear();
+    keys_.pressed.clear();
     if (seconds > 0.0)
         glfwWaitEventsTimeout(seconds);
     else

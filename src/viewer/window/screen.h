@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -20,6 +21,12 @@ struct KeyPress {
     bool again;    ///< by key repeat
 };
 
+/// Keys since the last frame, and those that are down since they were pressed with Ctrl.
+struct Keys {
+    std::vector<KeyPress> pressed;
+    std::unordered_set<int> with_control;
+};
+
 class Screen {
 public:
     /// Throws Error{device} without a display or OpenGL.
@@ -32,8 +39,12 @@ public:
     void close();
     glm::ivec2 size() const;                                   ///< [pixels]
     const std::string& draws_by() const { return draws_by_; }  ///< OpenGL's name of the device
-    const std::vector<KeyPress>& pressed() const { return pressed_; }  ///< since the last frame
-    bool holds(int key) const;                                         ///< true while it is down
+    const std::vector<KeyPress>& pressed() const
+    {
+        return keys_.pressed;
+    }  ///< since the last frame
+    /// True while it is down, unless it was pressed with Ctrl.
+    bool holds(int key) const;
 
     /// Sets the image of texture(): display-referred, 3 or 4 channels.
     void take(const Image& picture);
@@ -53,7 +64,7 @@ private:
 
     GLFWwindow* window_ = nullptr;
     std::string draws_by_;
-    std::vector<KeyPress> pressed_;
+    Keys keys_;
     std::unique_ptr<Gl> gl_;
     unsigned texture_ = 0;
     glm::ivec2 texture_size_{0};
