@@ -28,6 +28,9 @@ int run(const BakeArguments& arguments)
                                 100.0 * summary.eye_error, 100.0 * summary.error);
         else if (summary.error >= 0.0)
             error = fmt::format(", estimated error {:.2f} %", 100.0 * summary.error);
+        if (summary.visible_noise.worst_chart >= 0.0)
+            error +=
+                fmt::format(", visible noise {:.2f} %", 100.0 * summary.visible_noise.worst_chart);
         const SolverOptions& solver = arguments.options.solver;
         if (solver.has_default_limits() && summary.eye_error > solver.target_eye_error)
             error += "; --quality good goes on";

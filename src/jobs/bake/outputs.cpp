@@ -211,6 +211,7 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const S
     return {.shots = results.shots,
             .error = results.error,
             .eye_error = results.eye_error,
+            .visible_noise = results.visible_noise,
             .seconds = stages.seconds(),
             .interrupted = results.interrupted,
             .report = json_text(report)};

@@ -24,6 +24,7 @@ struct Results {
     std::uint64_t shots = 0;
     std::uint64_t iterations = 0;
     double error = -1.0, dark_error = -1.0, eye_error = -1.0;  ///< as in SolverState
+    VisibleNoise visible_noise;
     bool interrupted = false;
     std::size_t near_pairs = 0;
     std::vector<ConvergencePoint> curve;

@@ -31,6 +31,7 @@ BakeRecord record_of(const BakeOptions& options, const SolveScene& prepared, con
                       .error = results.error,
                       .dark_error = results.dark_error,
                       .eye_error = results.eye_error,
+                      .visible_noise = results.visible_noise,
                       .interrupted = results.interrupted,
                       .exposure = written.exposure,
                       .files = baked_files(prepared.atlas.pages)};

@@ -102,6 +102,7 @@ void add_solution(Report& report, const gpu::Device& device, const Solver& solve
     report.estimated_error = results.error;
     report.estimated_dark_error = results.dark_error;
     report.estimated_eye_error = results.eye_error;
+    report.visible_noise = results.visible_noise;
     report.interrupted = results.interrupted;
     report.convergence = results.curve;
     report.form_factors = results.form_factors;

@@ -56,7 +56,8 @@ struct BakeSummary {
     std::uint64_t shots = 0;
     double error = -1.0;      ///< estimated relative error
     double eye_error = -1.0;  ///< as in SolverState
-    double seconds = 0.0;     ///< total
+    VisibleNoise visible_noise;
+    double seconds = 0.0;  ///< total
     bool interrupted = false;
     std::string report;  ///< JSON of report.json
 };

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "atlas/lumels/sides.h"
+#include "base/core/luminance.h"
 #include "base/core/parallel.h"
+#include "links/filter/visible_noise.h"
 
 namespace lumel {
 namespace {
@@ -15,6 +18,9 @@ constexpr std::size_t kLumelsPerTask = 256;
 constexpr int kUncertainReach = 2;
 /// Radius of the square over which nearness is averaged [lumels].
 constexpr int kNearnessReach = 2;
+
+/// Lumels below this open share of their area count as covered by other geometry.
+constexpr float kOpen = 0.999f;
 
 /// Kinds of lumels that the filter treats alike: classes of nearness, and of the lumels of a chart,
 /// each a factor of 2 and of 4 wide.
@@ -199,12 +205,39 @@ Mean ChartFilter::indirect(const Solutions& found) const
                 }
                 mean.light[i] = glm::max((light[0] + light[1] + light[2]) / 3.0f, glm::vec3(0.0f));
                 mean.noise[i] = float(spread(light[0], light[1], light[2]) / 18.0);
+                mean.apart[i] = apart(light[0], light[1], light[2]);
+                mean.bend[i] = {luminance(bend[0]), luminance(bend[1]), luminance(bend[2])};
                 mean.wrong[i] = (glm::dot(bend[0], bend[1]) + glm::dot(bend[1], bend[2]) +
                                  glm::dot(bend[2], bend[0])) /
                                 3.0f;
             }
         });
     return mean;
+}
+
+VisibleNoise ChartFilter::visible_noise(const std::vector<float>& light,
+                                        const std::vector<const Mean*>& of) const
+{
+    const std::size_t width = std::size_t(work_.scene.lumels.width);
+    const auto texels_of = [&](const Place& place) {
+        const glm::ivec2 size = place.high - place.low + 1;
+        NoiseChart chart{.width = size.x, .height = size.y};
+        for (int y = place.low.y; y <= place.high.y; ++y)
+            for (int x = place.low.x; x <= place.high.x; ++x) {
+                const std::uint32_t i =
+                    by_side_[place_by_side(std::size_t(y) * width + std::size_t(x), place.is_back)];
+                const bool is_there = i != kNoLumel && work_.lumels()[i].chart == place.chart;
+                chart.lumel.push_back(is_there ? i : kNoLumel);
+                chart.is_blocked.push_back(is_there && work_.scene.open[i] < kOpen);
+            }
+        return chart;
+    };
+    std::vector<ChartNoise> charts(places_.size());
+    parallel_for(places_.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t n = first; n < last; ++n)
+            charts[n] = chart_noise(texels_of(places_[n]), light, of);
+    });
+    return lumel::visible_noise(std::move(charts));
 }
 
 /// [N] Kind of each lumel.
@@ -262,6 +295,11 @@ Mean ChartFilter::direct(const Estimates& one, const Estimates& other) const
                       mean.light[i] = glm::max(0.5f * (a + b), glm::vec3(0.0f));
                       mean.noise[i] = 0.25f * glm::dot(a - b, a - b);
                       mean.wrong[i] = glm::dot(a - one[i], b - other[i]);
+                      mean.apart[i] = apart(a, b);
+                      // The one product of two counts as three.
+                      mean.bend[i] =
+                          std::numbers::sqrt3_v<float> *
+                          glm::vec3(luminance(a - one[i]), luminance(b - other[i]), 0.0f);
                   }
               });
     return mean;

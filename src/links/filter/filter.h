@@ -10,6 +10,7 @@
 #include "links/filter/filter_chart.h"
 #include "links/filter/mean.h"
 #include "links/filter/pyramid.h"
+#include "solve/solver/solver_state.h"
 
 namespace lumel {
 
@@ -36,6 +37,9 @@ public:
     /// to other geometry on charts as large. raw, filtered [N]: variances.
     std::vector<double> variance_left(const std::vector<double>& raw,
                                       const std::vector<double>& filtered) const;
+    /// Noise of the sum of independent means, as an eye sees it. light [N]: luminance [lx].
+    VisibleNoise visible_noise(const std::vector<float>& light,
+                               const std::vector<const Mean*>& of) const;
     /// Filtered mean of two halves of direct light. Lumels far from any whose halves differ keep
     /// their light: it is exact.
     Mean direct(const Estimates& one, const Estimates& other) const;

@@ -14,6 +14,12 @@ struct Mean {
     Estimates light;           ///< [N] [lx]
     std::vector<float> noise;  ///< [N] its variance, summed over channels
     std::vector<float> wrong;  ///< [N] signed estimate of the squared filter bias
+    /// [N] Differences between the estimates, of luminance [lx]; the sum of their squares is its
+    /// variance.
+    std::vector<glm::vec2> apart;
+    /// [N] What the filter changed in the estimates, of luminance [lx]; the mean product of two is
+    /// its squared bias.
+    std::vector<glm::vec3> bend;
 };
 
 /// Sum of squared differences between the three, over channels.
@@ -35,6 +41,10 @@ public:
 private:
     double noise_ = 0.0, wrong_ = 0.0, squares_ = 0.0;
 };
+
+/// Mean::apart of three solutions and of two halves.
+glm::vec2 apart(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+glm::vec2 apart(const glm::vec3& a, const glm::vec3& b);
 
 /// Of independent solutions, and of two independent halves.
 Mean plain_mean(const Solutions& found);

@@ -14,7 +14,7 @@ namespace {
 /// Minimum light that an eye adapts to, relative to the mean of all but the brightest lumels.
 constexpr double kFaintest = 0.02, kAllButBrightest = 0.99;
 /// Neighbours: deviation and radius of their weights [lumels].
-constexpr double kSpread = 2.0;
+constexpr double kBellSpread = 2.0;
 constexpr int kReach = 6;
 /// Minimum weight of neighbours of a lumel that has any.
 constexpr double kFewNeighbours = 0.05;
@@ -26,7 +26,7 @@ Bell bell()
     Bell weight{};
     double sum = 0.0;
     for (std::size_t k = 0; k < weight.size(); ++k) {
-        const double r = (double(k) - double(kReach)) / kSpread;
+        const double r = (double(k) - double(kReach)) / kBellSpread;
         sum += weight[k] = std::exp(-0.5 * r * r);
     }
     for (double& one : weight)

@@ -20,6 +20,7 @@
 #include <cmath>
 
 #include "atlas/cells/order.h"
+#include "base/core/luminance.h"
 #include "base/core/state_bytes.h"
 #include "base/core/usage.h"
 #include "links/direct/deviation.h"
@@ -139,7 +140,7 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
 std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels)
 {
     constexpr std::size_t kOfSources = 2 * sizeof(glm::vec3) + sizeof(std::uint32_t);
-    constexpr std::size_t kOfMean = sizeof(glm::vec3) + 2 * sizeof(float);
+    constexpr std::size_t kOfMean = 2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 2 * sizeof(float);
     constexpr std::size_t kOfOrder = sizeof(std::uint32_t), kOfGroups = sizeof(std::uint32_t);
     const std::size_t of_parts =
         kSolutions * (kOfSources + sizeof(glm::vec3)) + kOfGroups + sizeof(glm::vec3);
@@ -202,9 +203,10 @@ void LinkRadiosity::step()
 template <class Archive>
 void LinkRadiosity::state(Archive& archive)
 {
-    archive(*direct_, direct_mean_.light, direct_mean_.noise, direct_mean_.wrong, round_,
-            mean_rays_, means_, rays_, traced_, mean_.light, mean_.noise, mean_.wrong, mean_light_,
-            adapted_, all_, dark_, eye_, state_, times_);
+    archive(*direct_, direct_mean_.light, direct_mean_.noise, direct_mean_.wrong,
+            direct_mean_.apart, direct_mean_.bend, round_, mean_rays_, means_, rays_, traced_,
+            mean_.light, mean_.noise, mean_.wrong, mean_.apart, mean_.bend, mean_light_, adapted_,
+            all_, dark_, eye_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
         archive(*links_[k], sources_[k].rays, received_[k]);
 }
@@ -241,8 +243,11 @@ bool LinkRadiosity::is_consistent() const
                 is(rays_.size(), lumels) && is(direct_mean_.light.size(), lumels) &&
                 direct_mean_.noise.size() == direct_mean_.light.size() &&
                 direct_mean_.wrong.size() == direct_mean_.light.size() &&
+                direct_mean_.apart.size() == direct_mean_.light.size() &&
+                direct_mean_.bend.size() == direct_mean_.light.size() &&
                 is(mean_.light.size(), lumels) && is(mean_.noise.size(), lumels) &&
-                is(mean_.wrong.size(), lumels) && is(adapted_.size(), lumels) &&
+                is(mean_.wrong.size(), lumels) && is(mean_.apart.size(), lumels) &&
+                is(mean_.bend.size(), lumels) && is(adapted_.size(), lumels) &&
                 traced_ <= tracer_->blocks() && means_.size() == round_ &&
                 (state_.shots > 0) == !mean_.light.empty() &&
                 (!is_tracing || (mean_rays_ > 0.0 && rays_.size() == lumels)) &&
@@ -657,6 +662,21 @@ void LinkRadiosity::estimate()
     eye_ = estimate_for_eye();
     state_.dark_error = std::sqrt(dark_.rays + dark_.direct);
     state_.eye_error = std::sqrt(eye_.rays + eye_.direct);
+    estimate_visible_noise();
+}
+
+void LinkRadiosity::estimate_visible_noise()
+{
+    const ChartFilter* const by = filter();
+    if (!by || mean_.light.empty())
+        return;
+    std::vector<float> light(work_.lumels().size());
+    for (std::size_t i = 0; i < light.size(); ++i)
+        light[i] = float(luminance(arrived(i)));
+    std::vector<const Mean*> means = {&mean_};
+    if (parts_wanted_ != Parts::indirect)
+        means.push_back(&direct_mean_);
+    state_.visible_noise = by->visible_noise(light, means);
 }
 
 /// Mean of squared errors relative to the light that an eye adapts to.

@@ -142,6 +142,7 @@ private:
     void combine();
     void estimate();
     Errors estimate_for_eye();
+    void estimate_visible_noise();
 
     const LinksOptions options_;
     const double target_error_, target_dark_error_, target_eye_error_;

@@ -42,6 +42,16 @@ void write_densities(const AtlasOptions& options, Json& settings)
             {{"name", rule.pattern}, {"texels_per_metre", shortest(rule.texels_per_metre)}});
 }
 
+VisibleNoise visible_noise_of(const JsonView& object)
+{
+    VisibleNoise noise{.worst_chart = object.get("worst_chart").number(kErrors.low, kErrors.high)};
+    object.each("bands", [&](const JsonView& band, std::size_t b) {
+        if (b < noise.bands.size())
+            noise.bands[b] = band.number(kErrors.low, kErrors.high);
+    });
+    return noise;
+}
+
 int pages_of(const JsonView& object)
 {
     const auto pages = object.find("pages");
@@ -137,6 +147,7 @@ Report report_of(const BakeRecord& record)
     report.estimated_error = record.error;
     report.estimated_dark_error = record.dark_error;
     report.estimated_eye_error = record.eye_error;
+    report.visible_noise = record.visible_noise;
     report.interrupted = record.interrupted;
     report.exposure = record.exposure;
     report.files = record.files;
@@ -173,6 +184,8 @@ BakeRecord record_of(const JsonView& report, const std::string& folder)
         result("estimated_dark_error", record.dark_error, kErrors);
     if (solution.find("estimated_eye_error"))
         result("estimated_eye_error", record.eye_error, kErrors);
+    if (const auto noise = solution.find("visible_noise"))
+        record.visible_noise = visible_noise_of(*noise);
     if (const auto exposure = solution.find("exposure"))
         record.exposure = float(exposure->number(0.0, std::numeric_limits<float>::max()));
     report.each("files",

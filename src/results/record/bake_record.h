@@ -48,6 +48,7 @@ struct BakeRecord {
     double error = -1.0;       ///< estimated relative error, < 0: unknown
     double dark_error = -1.0;  ///< as in SolverState
     double eye_error = -1.0;   ///< as in SolverState
+    VisibleNoise visible_noise;
     bool interrupted = false;
     std::optional<float> exposure;   ///< exposure of its images [1/lx]
     std::vector<std::string> files;  ///< written

@@ -93,6 +93,9 @@ Json solution(const Report& report)
         result["estimated_dark_error"] = report.estimated_dark_error;
     if (report.estimated_eye_error >= 0.0)
         result["estimated_eye_error"] = report.estimated_eye_error;
+    if (report.visible_noise.worst_chart >= 0.0)
+        result["visible_noise"] = {{"bands", report.visible_noise.bands},
+                                   {"worst_chart", report.visible_noise.worst_chart}};
     if (report.exposure)
         result["exposure"] = shortest(*report.exposure);
     result["convergence"] = curve;

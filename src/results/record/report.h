@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "base/json/json_view.h"
+#include "solve/solver/solver_state.h"
 
 namespace lumel {
 
@@ -117,6 +118,7 @@ struct Report {
     double estimated_error = -1.0;        ///< relative, < 0: unknown
     double estimated_dark_error = -1.0;   ///< see SolverState::dark_error
     double estimated_eye_error = -1.0;    ///< see SolverState::eye_error
+    VisibleNoise visible_noise;
     bool interrupted = false;
     std::optional<float> exposure;  ///< exposure of the map's or images' PNG [1/lx or m²/cd]
     std::vector<ConvergencePoint> convergence;

@@ -1,9 +1,22 @@
 #pragma once
 // Status of a solver.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace lumel {
+
+/// Estimated noise of the light on open surfaces, relative to it: see
+/// links/filter/visible_noise.h.
+struct VisibleNoise {
+    static constexpr std::size_t kBands = 4;
+    /// RMS of noise whose size is about 1.5, 3, 6 and 12 lumels
+    std::array<double, kBands> bands{};
+    /// the largest band of the chart below which 95 % of the area is; < 0: unknown, or no chart is
+    /// large enough
+    double worst_chart = -1.0;
+};
 
 /// As last read back from the device.
 struct SolverState {
@@ -16,6 +29,7 @@ struct SolverState {
     /// RMS of errors relative to the light that an eye adapts to at each lumel, see
     /// links/trace/adapted_light.h; < 0: unknown.
     double eye_error = -1.0;
+    VisibleNoise visible_noise;
     bool full = false;   ///< memory is exhausted: further steps change nothing
     bool ended = false;  ///< nothing is left to do: further steps change nothing
     double begun = 0.0;  ///< progress to the first estimate, 0…1, if known

@@ -1,0 +1,244 @@
+#include "links/filter/visible_noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "atlas/packing/lumel.shared.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels count from this distance on to the rim of a chart, and to geometry on it [lumels].
+constexpr int kFromRim = 3, kFromGeometry = 8;
+/// Minimum number of such lumels of a chart: fewer do not show a pattern.
+constexpr std::size_t kFewest = 400;
+/// Minimum light that noise is relative to, as a fraction of the chart's mean; it is the mean over
+/// a Gaussian of deviation kSurroundings [lumels].
+constexpr float kFaintest = 0.02f, kSurroundings = 2.0f;
+/// Charts below this fraction of the brightest are black.
+constexpr double kBlack = 1e-4;
+/// The worst chart is the one below which this fraction of the area is.
+constexpr double kArea = 0.95;
+/// Radius of a Gaussian, in deviations.
+constexpr float kRadius = 4.0f;
+
+constexpr std::size_t kLevels = VisibleNoise::kBands + 1;
+/// Deviations of the Gaussian means [lumels].
+constexpr std::array<float, kLevels> kDeviations = {1.0f, 2.0f, 4.0f, 8.0f, 16.0f};
+
+/// Values of a chart, row by row.
+struct Grid {
+    int width, height;
+    std::vector<float> value;
+
+    float& at(int x, int y) { return value[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
+    const float* row(int y) const { return &value[std::size_t(y) * std::size_t(width)]; }
+};
+
+std::vector<float> gaussian(float deviation)
+{
+    const int radius = int(std::ceil(kRadius * deviation));
+    std::vector<float> weight;
+    float sum = 0.0f;
+    for (int k = -radius; k <= radius; ++k) {
+        const float r = float(k) / deviation;
+        weight.push_back(std::exp(-0.5f * r * r));
+        sum += weight.back();
+    }
+    for (float& one : weight)
+        one /= sum;
+    return weight;
+}
+
+/// Sums weighted by a Gaussian; zero beyond the grid.
+Grid blurred(const Grid& grid, float deviation)
+{
+    const std::vector<float> weight = gaussian(deviation);
+    const int radius = int(weight.size() / 2);
+    Grid rows{grid.width, grid.height, std::vector<float>(grid.value.size(), 0.0f)};
+    const auto weight_at = [&](int k) { return *(weight.begin() + radius + k); };
+    const auto add_row = [&](const float* from, float* to, float by, int count) {
+        for (int x = 0; x < count; ++x)
+            to[x] += by * from[x];
+    };
+    for (int y = 0; y < grid.height; ++y)
+        for (int k = std::max(-radius, -y); k <= std::min(radius, grid.height - 1 - y); ++k)
+            add_row(grid.row(y + k), &rows.at(0, y), weight_at(k), grid.width);
+    Grid all{grid.width, grid.height, std::vector<float>(grid.value.size(), 0.0f)};
+    for (int y = 0; y < grid.height; ++y)
+        for (int k = -std::min(radius, grid.width - 1); k <= std::min(radius, grid.width - 1); ++k)
+            add_row(&rows.at(std::max(k, 0), y), &all.at(std::max(-k, 0), y), weight_at(k),
+                    grid.width - std::abs(k));
+    return all;
+}
+
+/// [texels] Steps along rows and columns to the nearest marked texel, or beyond the grid if
+/// is_rim_marked; at most `most`.
+std::vector<int> steps_to(const NoiseChart& chart, const std::vector<char>& marked,
+                          bool is_rim_marked, int most)
+{
+    std::vector<int> steps(marked.size(), most);
+    const auto of = [&](int x, int y) {
+        if (x < 0 || y < 0 || x >= chart.width || y >= chart.height)
+            return is_rim_marked ? 0 : most;
+        return steps[chart.at(x, y)];
+    };
+    const auto visit = [&](int x, int y) {
+        int& here = steps[chart.at(x, y)];
+        here = marked[chart.at(x, y)] ? 0
+                                      : std::min({here, of(x - 1, y) + 1, of(x + 1, y) + 1,
+                                                  of(x, y - 1) + 1, of(x, y + 1) + 1});
+    };
+    for (int y = 0; y < chart.height; ++y)
+        for (int x = 0; x < chart.width; ++x)
+            visit(x, y);
+    for (int y = chart.height - 1; y >= 0; --y)
+        for (int x = chart.width - 1; x >= 0; --x)
+            visit(x, y);
+    return steps;
+}
+
+/// [texels] 1 where noise counts.
+Grid open_surface(const NoiseChart& chart)
+{
+    std::vector<char> outside(chart.lumel.size());
+    for (std::size_t t = 0; t < outside.size(); ++t)
+        outside[t] = chart.lumel[t] == kNoLumel;
+    const std::vector<int> rim = steps_to(chart, outside, true, kFromRim + 1),
+                           blocked = steps_to(chart, chart.is_blocked, false, kFromGeometry + 1);
+    Grid open{chart.width, chart.height, std::vector<float>(outside.size())};
+    for (std::size_t t = 0; t < outside.size(); ++t)
+        open.value[t] = rim[t] > kFromRim && blocked[t] > kFromGeometry ? 1.0f : 0.0f;
+    return open;
+}
+
+/// Gaussian means over the open surface.
+class Pyramid {
+public:
+    explicit Pyramid(const Grid& open) : open_(open)
+    {
+        for (std::size_t l = 0; l < kLevels; ++l)
+            weight_[l] = next(l, l == 0 ? open : weight_[l - 1]);
+    }
+
+    /// Bands of values that are zero where the surface is not open.
+    std::array<std::vector<float>, VisibleNoise::kBands> bands(Grid values) const
+    {
+        std::array<std::vector<float>, VisibleNoise::kBands> result;
+        std::vector<float> finer, mean(values.value.size());
+        for (std::size_t l = 0; l < kLevels; ++l) {
+            values = next(l, values);
+            for (std::size_t t = 0; t < mean.size(); ++t)
+                mean[t] = open_.value[t] > 0.0f ? values.value[t] / weight_[l].value[t] : 0.0f;
+            if (l > 0) {
+                result[l - 1].resize(mean.size());
+                for (std::size_t t = 0; t < mean.size(); ++t)
+                    result[l - 1][t] = finer[t] - mean[t];
+            }
+            finer = mean;
+        }
+        return result;
+    }
+
+private:
+    /// A level from the one before it: Gaussians convolve to a Gaussian.
+    static Grid next(std::size_t l, const Grid& before)
+    {
+        const float own = kDeviations[l], had = l == 0 ? 0.0f : kDeviations[l - 1];
+        return blurred(before, std::sqrt(own * own - had * had));
+    }
+
+    const Grid& open_;
+    std::array<Grid, kLevels> weight_;
+};
+
+double mean_product(const std::vector<float>& a, const std::vector<float>& b, std::size_t count)
+{
+    double sum = 0.0;
+    for (std::size_t t = 0; t < a.size(); ++t)
+        sum += double(a[t]) * double(b[t]);
+    return sum / double(count);
+}
+
+}  // namespace
+
+ChartNoise chart_noise(const NoiseChart& chart, const std::vector<float>& light,
+                       const std::vector<const Mean*>& of)
+{
+    const Grid open = open_surface(chart);
+    ChartNoise noise{.lumels = std::size_t(std::count(open.value.begin(), open.value.end(), 1.0f))};
+    if (noise.lumels < kFewest)
+        return {};
+    const auto values = [&](const auto& of_lumel) {
+        Grid grid{chart.width, chart.height, std::vector<float>(open.value.size(), 0.0f)};
+        for (std::size_t t = 0; t < open.value.size(); ++t)
+            if (open.value[t] > 0.0f)
+                grid.value[t] = of_lumel(t);
+        return grid;
+    };
+    const Grid own = values([&](std::size_t t) { return light[chart.lumel[t]]; });
+    for (const float one : own.value)
+        noise.light += double(one) / double(noise.lumels);
+    if (!(noise.light > 0.0))
+        return {};
+    const Grid around = blurred(own, kSurroundings), weight = blurred(open, kSurroundings);
+    std::vector<float> relative(own.value.size(), 0.0f);
+    for (std::size_t t = 0; t < relative.size(); ++t)
+        if (open.value[t] > 0.0f)
+            relative[t] =
+                1.0f / std::max(around.value[t] / weight.value[t], kFaintest * float(noise.light));
+    const Pyramid pyramid(open);
+    const auto bands_of = [&](const auto& of_lumel) {
+        return pyramid.bands(
+            values([&](std::size_t t) { return relative[t] * of_lumel(chart.lumel[t]); }));
+    };
+    for (const Mean* mean : of) {
+        for (int k = 0; k < 2; ++k) {
+            const auto apart = bands_of([&](std::size_t i) { return mean->apart[i][k]; });
+            for (std::size_t b = 0; b < apart.size(); ++b)
+                noise.power[b] += mean_product(apart[b], apart[b], noise.lumels);
+        }
+        std::array<std::array<std::vector<float>, VisibleNoise::kBands>, 3> bend;
+        for (int k = 0; k < 3; ++k)
+            bend[std::size_t(k)] = bands_of([&](std::size_t i) { return mean->bend[i][k]; });
+        for (std::size_t b = 0; b < VisibleNoise::kBands; ++b)
+            noise.power[b] += std::max(0.0, (mean_product(bend[0][b], bend[1][b], noise.lumels) +
+                                             mean_product(bend[1][b], bend[2][b], noise.lumels) +
+                                             mean_product(bend[2][b], bend[0][b], noise.lumels)) /
+                                                3.0);
+    }
+    return noise;
+}
+
+VisibleNoise visible_noise(std::vector<ChartNoise> charts)
+{
+    double brightest = 0.0;
+    for (const ChartNoise& chart : charts)
+        brightest = std::max(brightest, chart.light);
+    std::erase_if(charts, [&](const ChartNoise& chart) {
+        return chart.lumels == 0 || chart.light < kBlack * brightest;
+    });
+    VisibleNoise result;
+    if (charts.empty())
+        return result;
+    const auto most = [](const ChartNoise& chart) { return std::ranges::max(chart.power); };
+    std::ranges::sort(charts, {}, most);
+    double all = 0.0, below = 0.0;
+    for (const ChartNoise& chart : charts) {
+        all += double(chart.lumels);
+        for (std::size_t b = 0; b < chart.power.size(); ++b)
+            result.bands[b] += double(chart.lumels) * chart.power[b];
+    }
+    for (double& band : result.bands)
+        band = std::sqrt(band / all);
+    for (const ChartNoise& chart : charts) {
+        below += double(chart.lumels);
+        if (below >= kArea * all) {
+            result.worst_chart = std::sqrt(most(chart));
+            break;
+        }
+    }
+    return result;
+}
+
+}  // namespace lumel
