@@ -137,7 +137,7 @@ std::vector<glm::vec3> light_over_links(const EditedScene& edit, StoredLinks& ke
     baked.error = state.error;
     baked.dark_error = state.dark_error;
     baked.eye_error = state.eye_error;
-    baked.visible_noise = state.visible_noise;
+    baked.visible_noise = solver.visible_noise();
     kept = solver.kept(edit.now.scene.hash);
     return solver.irradiance();
 }

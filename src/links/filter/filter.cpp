@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "atlas/lumels/sides.h"
 #include "base/core/luminance.h"
 #include "base/core/parallel.h"
-#include "links/filter/visible_noise.h"
 
 namespace lumel {
 namespace {
@@ -18,9 +16,6 @@ constexpr std::size_t kLumelsPerTask = 256;
 constexpr int kUncertainReach = 2;
 /// Radius of the square over which nearness is averaged [lumels].
 constexpr int kNearnessReach = 2;
-
-/// Lumels below this open share of their area count as covered by other geometry.
-constexpr float kOpen = 0.999f;
 
 /// Kinds of lumels that the filter treats alike: classes of nearness, and of the lumels of a chart,
 /// each a factor of 2 and of 4 wide.
@@ -69,7 +64,7 @@ ChartFilter::ChartFilter(const LinkWork& work, const SubLumels& parts,
     : work_(work),
       parts_(parts),
       by_side_(lumels_by_side(work.scene.lumels)),
-      places_(find_places()),
+      places_(chart_places(work.scene.lumels)),
       steps_(work.world.size()),
       nearness_(work.world.size())
 {
@@ -91,29 +86,6 @@ std::uint64_t ChartFilter::bytes(std::size_t lumels, std::size_t texels)
 std::uint64_t ChartFilter::working_bytes(std::size_t lumels)
 {
     return lumels * (4 * sizeof(FitLight<kSolutions>) + 18 * sizeof(float));
-}
-
-std::vector<ChartFilter::Place> ChartFilter::find_places() const
-{
-    const Lumels& lumels = work_.scene.lumels;
-    std::vector<Place> all;
-    for (const Lumel& lumel : lumels.lumels) {
-        const std::size_t key = place_by_side(lumel.chart, is_back(lumel));
-        for (std::size_t n = all.size(); n <= key; ++n)
-            all.push_back({glm::ivec2(std::numeric_limits<int>::max()), glm::ivec2(-1),
-                           std::uint32_t(n / 2), n % 2 == 1});
-        const glm::ivec2 at(int(lumel.texel) % lumels.width, int(lumel.texel) / lumels.width);
-        all[key].low = glm::min(all[key].low, at);
-        all[key].high = glm::max(all[key].high, at);
-    }
-    std::erase_if(all, [](const Place& place) { return place.high.x < place.low.x; });
-    const auto texels = [](const Place& place) {
-        const glm::ivec2 size = place.high - place.low + 1;
-        return std::size_t(size.x) * std::size_t(size.y);
-    };
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const Place& a, const Place& b) { return texels(a) > texels(b); });
-    return all;
 }
 
 /// Bits of the neighbours on the same chart and side across which the filter may step.
@@ -147,7 +119,7 @@ bool ChartFilter::may_step(std::size_t i, std::size_t j, float nearest) const
                                  0.0f, std::uint32_t(i));
 }
 
-FilterChart ChartFilter::chart_at(const Place& place) const
+FilterChart ChartFilter::chart_at(const ChartPlace& place) const
 {
     const glm::ivec2 size = place.high - place.low + 1;
     const std::size_t texels = std::size_t(size.x) * std::size_t(size.y);
@@ -213,31 +185,6 @@ Mean ChartFilter::indirect(const Solutions& found) const
             }
         });
     return mean;
-}
-
-VisibleNoise ChartFilter::visible_noise(const std::vector<float>& light,
-                                        const std::vector<const Mean*>& of) const
-{
-    const std::size_t width = std::size_t(work_.scene.lumels.width);
-    const auto texels_of = [&](const Place& place) {
-        const glm::ivec2 size = place.high - place.low + 1;
-        NoiseChart chart{.width = size.x, .height = size.y};
-        for (int y = place.low.y; y <= place.high.y; ++y)
-            for (int x = place.low.x; x <= place.high.x; ++x) {
-                const std::uint32_t i =
-                    by_side_[place_by_side(std::size_t(y) * width + std::size_t(x), place.is_back)];
-                const bool is_there = i != kNoLumel && work_.lumels()[i].chart == place.chart;
-                chart.lumel.push_back(is_there ? i : kNoLumel);
-                chart.is_blocked.push_back(is_there && work_.scene.open[i] < kOpen);
-            }
-        return chart;
-    };
-    std::vector<ChartNoise> charts(places_.size());
-    parallel_for(places_.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t n = first; n < last; ++n)
-            charts[n] = chart_noise(texels_of(places_[n]), light, of);
-    });
-    return lumel::visible_noise(std::move(charts));
 }
 
 /// [N] Kind of each lumel.

@@ -7,10 +7,10 @@
 
 #include "links/direct/link_work.h"
 #include "links/direct/solutions.h"
+#include "links/filter/chart_places.h"
 #include "links/filter/filter_chart.h"
 #include "links/filter/mean.h"
 #include "links/filter/pyramid.h"
-#include "solve/solver/solver_state.h"
 
 namespace lumel {
 
@@ -37,25 +37,14 @@ public:
     /// to other geometry on charts as large. raw, filtered [N]: variances.
     std::vector<double> variance_left(const std::vector<double>& raw,
                                       const std::vector<double>& filtered) const;
-    /// Noise of the sum of independent means, as an eye sees it. light [N]: luminance [lx].
-    VisibleNoise visible_noise(const std::vector<float>& light,
-                               const std::vector<const Mean*>& of) const;
     /// Filtered mean of two halves of direct light. Lumels far from any whose halves differ keep
     /// their light: it is exact.
     Mean direct(const Estimates& one, const Estimates& other) const;
 
 private:
-    /// A side of a chart in the atlas.
-    struct Place {
-        glm::ivec2 low, high;  ///< first and last texel
-        std::uint32_t chart;
-        bool is_back;
-    };
-
-    std::vector<Place> find_places() const;
     std::uint8_t find_steps(std::size_t lumel, const std::vector<float>& nearest) const;
     bool may_step(std::size_t i, std::size_t j, float nearest) const;
-    FilterChart chart_at(const Place& place) const;
+    FilterChart chart_at(const ChartPlace& place) const;
     std::vector<std::uint32_t> find_kinds() const;
     template <std::size_t Count, class Visit>
     void filter(const std::array<const Estimates*, Count>& found, const PyramidRule& rule,
@@ -64,9 +53,9 @@ private:
     const LinkWork& work_;
     const SubLumels& parts_;
     std::vector<std::uint32_t> by_side_;  ///< [texels][2]
-    std::vector<Place> places_;           ///< largest first
-    std::vector<std::uint8_t> steps_;     ///< [N] bit s: the filter may step over kSteps[s]
-    std::vector<float> nearness_;         ///< [N] as in FilterChart
+    std::vector<ChartPlace> places_;
+    std::vector<std::uint8_t> steps_;  ///< [N] bit s: the filter may step over kSteps[s]
+    std::vector<float> nearness_;      ///< [N] as in FilterChart
 };
 
 }  // namespace lumel

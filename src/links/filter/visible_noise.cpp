@@ -3,24 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atlas/packing/lumel.shared.h"
+#include "atlas/lumels/sides.h"
+#include "base/core/parallel.h"
+#include "links/filter/chart_places.h"
 
 namespace lumel {
 namespace {
 
 /// Lumels count from this distance on to the rim of a chart, and to geometry on it [lumels].
 constexpr int kFromRim = 3, kFromGeometry = 8;
+/// Lumels below this open share of their area are partly covered by other geometry.
+constexpr float kOpen = 0.999f;
 /// Minimum number of such lumels of a chart: fewer do not show a pattern.
 constexpr std::size_t kFewest = 400;
 /// Minimum light that noise is relative to, as a fraction of the chart's mean; it is the mean over
 /// a Gaussian of deviation kSurroundings [lumels].
-constexpr float kFaintest = 0.02f, kSurroundings = 2.0f;
+constexpr float kFaintestAround = 0.02f, kSurroundings = 2.0f;
 /// Charts below this fraction of the brightest are black.
 constexpr double kBlack = 1e-4;
 /// The worst chart is the one below which this fraction of the area is.
 constexpr double kArea = 0.95;
 /// Radius of a Gaussian, in deviations.
-constexpr float kRadius = 4.0f;
+constexpr float kBellRadius = 4.0f;
 
 constexpr std::size_t kLevels = VisibleNoise::kBands + 1;
 /// Deviations of the Gaussian means [lumels].
@@ -37,7 +41,7 @@ struct Grid {
 
 std::vector<float> gaussian(float deviation)
 {
-    const int radius = int(std::ceil(kRadius * deviation));
+    const int radius = int(std::ceil(kBellRadius * deviation));
     std::vector<float> weight;
     float sum = 0.0f;
     for (int k = -radius; k <= radius; ++k) {
@@ -112,6 +116,9 @@ Grid open_surface(const NoiseChart& chart)
     return open;
 }
 
+/// [bands][texels]
+using Bands = std::array<std::vector<float>, VisibleNoise::kBands>;
+
 /// Gaussian means over the open surface.
 class Pyramid {
 public:
@@ -122,9 +129,13 @@ public:
     }
 
     /// Bands of values that are zero where the surface is not open.
-    std::array<std::vector<float>, VisibleNoise::kBands> bands(Grid values) const
+    Bands bands(Grid values) const
     {
-        std::array<std::vector<float>, VisibleNoise::kBands> result;
+        Bands result;
+        if (std::ranges::all_of(values.value, [](float one) { return one == 0.0f; })) {
+            result.fill(values.value);
+            return result;
+        }
         std::vector<float> finer, mean(values.value.size());
         for (std::size_t l = 0; l < kLevels; ++l) {
             values = next(l, values);
@@ -160,6 +171,44 @@ double mean_product(const std::vector<float>& a, const std::vector<float>& b, st
     return sum / double(count);
 }
 
+/// Adds the power of a mean's noise and bias. bands_of: returns Bands of a function of the lumel.
+template <class BandsOf>
+void add_power(const Mean& mean, const BandsOf& bands_of, ChartNoise& noise)
+{
+    for (int k = 0; k < 2; ++k) {
+        const Bands apart = bands_of([&](std::size_t i) { return mean.apart[i][k]; });
+        for (std::size_t b = 0; b < apart.size(); ++b)
+            noise.power[b] += mean_product(apart[b], apart[b], noise.lumels);
+    }
+    std::array<Bands, 3> bend;
+    for (int k = 0; k < 3; ++k)
+        bend[std::size_t(k)] = bands_of([&](std::size_t i) { return mean.bend[i][k]; });
+    for (std::size_t b = 0; b < VisibleNoise::kBands; ++b) {
+        double products = 0.0;
+        for (std::size_t k = 0; k < bend.size(); ++k)
+            products += mean_product(bend[k][b], bend[(k + 1) % bend.size()][b], noise.lumels);
+        noise.power[b] += std::max(0.0, products / double(bend.size()));
+    }
+}
+
+/// The chart at a place. by_side: lumels_by_side().
+NoiseChart chart_at(const ChartPlace& place, const SolveScene& scene,
+                    const std::vector<std::uint32_t>& by_side)
+{
+    const glm::ivec2 size = place.high - place.low + 1;
+    NoiseChart chart{.width = size.x, .height = size.y};
+    for (int y = place.low.y; y <= place.high.y; ++y)
+        for (int x = place.low.x; x <= place.high.x; ++x) {
+            const std::size_t texel =
+                std::size_t(y) * std::size_t(scene.lumels.width) + std::size_t(x);
+            const std::uint32_t i = by_side[place_by_side(texel, place.is_back)];
+            const bool is_there = i != kNoLumel && scene.lumels.lumels[i].chart == place.chart;
+            chart.lumel.push_back(is_there ? i : kNoLumel);
+            chart.is_blocked.push_back(is_there && scene.open[i] < kOpen);
+        }
+    return chart;
+}
+
 }  // namespace
 
 ChartNoise chart_noise(const NoiseChart& chart, const std::vector<float>& light,
@@ -185,28 +234,15 @@ ChartNoise chart_noise(const NoiseChart& chart, const std::vector<float>& light,
     std::vector<float> relative(own.value.size(), 0.0f);
     for (std::size_t t = 0; t < relative.size(); ++t)
         if (open.value[t] > 0.0f)
-            relative[t] =
-                1.0f / std::max(around.value[t] / weight.value[t], kFaintest * float(noise.light));
+            relative[t] = 1.0f / std::max(around.value[t] / weight.value[t],
+                                          kFaintestAround * float(noise.light));
     const Pyramid pyramid(open);
     const auto bands_of = [&](const auto& of_lumel) {
         return pyramid.bands(
             values([&](std::size_t t) { return relative[t] * of_lumel(chart.lumel[t]); }));
     };
-    for (const Mean* mean : of) {
-        for (int k = 0; k < 2; ++k) {
-            const auto apart = bands_of([&](std::size_t i) { return mean->apart[i][k]; });
-            for (std::size_t b = 0; b < apart.size(); ++b)
-                noise.power[b] += mean_product(apart[b], apart[b], noise.lumels);
-        }
-        std::array<std::array<std::vector<float>, VisibleNoise::kBands>, 3> bend;
-        for (int k = 0; k < 3; ++k)
-            bend[std::size_t(k)] = bands_of([&](std::size_t i) { return mean->bend[i][k]; });
-        for (std::size_t b = 0; b < VisibleNoise::kBands; ++b)
-            noise.power[b] += std::max(0.0, (mean_product(bend[0][b], bend[1][b], noise.lumels) +
-                                             mean_product(bend[1][b], bend[2][b], noise.lumels) +
-                                             mean_product(bend[2][b], bend[0][b], noise.lumels)) /
-                                                3.0);
-    }
+    for (const Mean* mean : of)
+        add_power(*mean, bands_of, noise);
     return noise;
 }
 
@@ -239,6 +275,19 @@ VisibleNoise visible_noise(std::vector<ChartNoise> charts)
         }
     }
     return result;
+}
+
+VisibleNoise visible_noise(const SolveScene& scene, const std::vector<float>& light,
+                           const std::vector<const Mean*>& of)
+{
+    const std::vector<std::uint32_t> by_side = lumels_by_side(scene.lumels);
+    const std::vector<ChartPlace> places = chart_places(scene.lumels);
+    std::vector<ChartNoise> charts(places.size());
+    parallel_for(places.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t n = first; n < last; ++n)
+            charts[n] = chart_noise(chart_at(places[n], scene, by_side), light, of);
+    });
+    return visible_noise(std::move(charts));
 }
 
 }  // namespace lumel

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "atlas/prepare/solve_scene.h"
 #include "links/filter/mean.h"
 #include "solve/solver/solver_state.h"
 
@@ -39,5 +40,9 @@ ChartNoise chart_noise(const NoiseChart& chart, const std::vector<float>& light,
 
 /// Of all charts together. Those that are nearly black do not count.
 VisibleNoise visible_noise(std::vector<ChartNoise> charts);
+
+/// Of a scene. The other arguments: as in chart_noise().
+VisibleNoise visible_noise(const SolveScene& scene, const std::vector<float>& light,
+                           const std::vector<const Mean*>& of);
 
 }  // namespace lumel

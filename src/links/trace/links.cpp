@@ -24,6 +24,7 @@
 #include "base/core/state_bytes.h"
 #include "base/core/usage.h"
 #include "links/direct/deviation.h"
+#include "links/filter/visible_noise.h"
 #include "links/trace/adapted_light.h"
 #include "links/trace/link_casters.h"
 #include "links/trace/shared_directions.h"
@@ -662,21 +663,19 @@ void LinkRadiosity::estimate()
     eye_ = estimate_for_eye();
     state_.dark_error = std::sqrt(dark_.rays + dark_.direct);
     state_.eye_error = std::sqrt(eye_.rays + eye_.direct);
-    estimate_visible_noise();
 }
 
-void LinkRadiosity::estimate_visible_noise()
+VisibleNoise LinkRadiosity::visible_noise() const
 {
-    const ChartFilter* const by = filter();
-    if (!by || mean_.light.empty())
-        return;
+    if (mean_.light.empty())
+        return {};
     std::vector<float> light(work_.lumels().size());
     for (std::size_t i = 0; i < light.size(); ++i)
         light[i] = float(luminance(arrived(i)));
     std::vector<const Mean*> means = {&mean_};
     if (parts_wanted_ != Parts::indirect)
         means.push_back(&direct_mean_);
-    state_.visible_noise = by->visible_noise(light, means);
+    return lumel::visible_noise(work_.scene, light, means);
 }
 
 /// Mean of squared errors relative to the light that an eye adapts to.

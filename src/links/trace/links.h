@@ -61,6 +61,7 @@ public:
     /// [N] Estimated error of each lumel relative to its light, 0…1, without the filter's bias; 1
     /// before the first round has ended, 0 for buried lumels.
     std::vector<float> error_estimate() const;
+    VisibleNoise visible_noise() const override;
     const gpu::StageTimes& times() const override { return times_; }
     double longest_submission() const override { return 0.0; }
     std::string rays() const override
@@ -142,7 +143,6 @@ private:
     void combine();
     void estimate();
     Errors estimate_for_eye();
-    void estimate_visible_noise();
 
     const LinksOptions options_;
     const double target_error_, target_dark_error_, target_eye_error_;

@@ -29,7 +29,6 @@ struct SolverState {
     /// RMS of errors relative to the light that an eye adapts to at each lumel, see
     /// links/trace/adapted_light.h; < 0: unknown.
     double eye_error = -1.0;
-    VisibleNoise visible_noise;
     bool full = false;   ///< memory is exhausted: further steps change nothing
     bool ended = false;  ///< nothing is left to do: further steps change nothing
     double begun = 0.0;  ///< progress to the first estimate, 0…1, if known

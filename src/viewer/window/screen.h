@@ -39,10 +39,8 @@ public:
     void close();
     glm::ivec2 size() const;                                   ///< [pixels]
     const std::string& draws_by() const { return draws_by_; }  ///< OpenGL's name of the device
-    const std::vector<KeyPress>& pressed() const
-    {
-        return keys_.pressed;
-    }  ///< since the last frame
+    /// Since the last frame.
+    const std::vector<KeyPress>& pressed() const { return keys_.pressed; }
     /// True while it is down, unless it was pressed with Ctrl.
     bool holds(int key) const;
 
