@@ -32,7 +32,9 @@ int run(const BakeArguments& arguments)
             error +=
                 fmt::format(", visible noise {:.2f} %", 100.0 * summary.visible_noise.worst_chart);
         const SolverOptions& solver = arguments.options.solver;
-        if (solver.has_default_limits() && summary.eye_error > solver.target_eye_error)
+        if (solver.has_default_limits() &&
+            (summary.eye_error > kGood.eye_error ||
+             summary.visible_noise.worst_chart > kGood.visible_noise))
             error += "; --quality good goes on";
         return Conclusion{summary.report,
                           fmt::format("{}: {} {} in {:.1f} s{}", arguments.folder, summary.shots,

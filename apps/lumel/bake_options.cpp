@@ -71,7 +71,8 @@ void set_links(const Command& command, const GivenLinks& links, BakeOptions& opt
             throw Error(ErrorKind::input, option,
                         "cannot be given with --links, which fixes the number of rays");
     method->even_rays = links.rays;
-    options.solver.target_error = options.solver.target_eye_error = 0.0;
+    options.solver.target_error = 0.0;
+    options.solver.target_quality = {};
     options.solver.max_shots = 0;
 }
 

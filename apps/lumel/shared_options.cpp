@@ -24,8 +24,7 @@ const Choices<LightmapFormat> kLightmapFormats = {{"ktx2", LightmapFormat::ktx2}
                                                   {"rgb9e5", LightmapFormat::rgb9e5},
                                                   {"png", LightmapFormat::png},
                                                   {"none", LightmapFormat::none}};
-const Choices<double> kQualities = {
-    {"draft", kDraftError}, {"good", kGoodError}, {"fine", kFineError}};
+const Choices<Quality> kQualities = {{"draft", kDraft}, {"good", kGood}, {"fine", kFine}};
 const Choices<Sides> kSides = {{"auto", Sides::automatic},
                                {"both", Sides::both},
                                {"brighter", Sides::brighter},
@@ -176,11 +175,12 @@ void add_stop_options(Command& command, SolverOptions& solver)
          {"--time", "SECONDS",
           "Stop solving this long after the start of the command, then write the results",
           &solver.max_seconds, "", positive()},
-         choice(solver.target_eye_error, kQualities,
+         choice(solver.target_quality, kQualities,
                 {.names = "--quality",
-                 .help = "Stop when the estimated error relative to the light around each lumel is "
-                         "5 % (draft: grain shows on plain walls), 2.5 % (good: clean at first "
-                         "sight) or 1 % (fine: clean at three times the size); only links",
+                 .help = "Stop when the estimated noise that is seen on plain walls is 1 % (draft: "
+                         "clouds and grain show), 0.5 % (good: clean at first sight) or 0.2 % "
+                         "(fine: clean at three times the size), and errors in corners ten times "
+                         "that; only links",
                  .default_value = "good, but at most " + text_of(kDefaultRays) +
                                   " rays per lumel; none with --error, --shots, --time or "
                                   "--dark-error"}),
@@ -204,7 +204,7 @@ void set_default_target(const Command& command, SolverOptions& solver)
     if (has_limit || by_eye)
         solver.target_error = 0.0;
     if (!has_limit && by_eye) {
-        solver.target_eye_error = kGoodError;
+        solver.target_quality = kGood;
         solver.max_shots = kDefaultRays;
     }
 }

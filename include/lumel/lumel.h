@@ -348,8 +348,11 @@ struct BakeSettings {
     std::map<std::string, std::string> options;
     Parts parts = Parts::all;
     std::uint32_t seed = 1;
-    double error = 0.02;      ///< target for the estimated relative error; 0: none
-    double eye_error = 0.0;   ///< target relative to the light around; only links; 0: none
+    double error = 0.02;     ///< target for the estimated relative error; 0: none
+    double eye_error = 0.0;  ///< target relative to the light around; only links; 0: none
+    /// Target for the noise that is seen on plain walls, relative to their light; only links; 0:
+    /// none.
+    double visible_noise = 0.0;
     double seconds = 0.0;     ///< time limit, counted from the start of the bake; 0: none
     std::uint64_t shots = 0;  ///< limit of shots; 0: none
 };

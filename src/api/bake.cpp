@@ -50,13 +50,15 @@ BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
     options.parts = parts_of(settings.parts);
     options.solver.method = method_of(settings);
     options.solver.target_error = settings.error;
-    options.solver.target_eye_error = settings.eye_error;
+    options.solver.target_quality = {settings.visible_noise, settings.eye_error};
     options.solver.max_seconds = settings.seconds;
     options.solver.max_shots = settings.shots;
     if (!std::isfinite(settings.error) || settings.error < 0.0)
         refuse_setting("error", "must be a number of 0 or more");
     if (!std::isfinite(settings.eye_error) || settings.eye_error < 0.0)
         refuse_setting("eye_error", "must be a number of 0 or more");
+    if (!std::isfinite(settings.visible_noise) || settings.visible_noise < 0.0)
+        refuse_setting("visible_noise", "must be a number of 0 or more");
     if (!std::isfinite(settings.seconds) || settings.seconds < 0.0)
         refuse_setting("seconds", "must be a number of 0 or more");
     if (!options.solver.has_target() && settings.seconds == 0.0 && settings.shots == 0 &&

@@ -107,10 +107,9 @@ void check_limits(const SolverOptions& options)
     if (options.target_dark_error > 0.0)
         throw Error(ErrorKind::input, "--dark-error",
                     unknown + ", which does not state the error of dark places");
-    if (options.target_eye_error > 0.0)
+    if (options.target_quality.is_given())
         throw Error(ErrorKind::input, "--quality",
-                    unknown + ", which does not state the error relative to the light around; "
-                              "use --error");
+                    unknown + ", which does not state what is seen; use --error");
 }
 
 std::string get_option(const MethodOptions& method, const OptionInfo& option)

@@ -54,16 +54,17 @@ TEST(Messages, AnErrorThatIsNotReachedIsAWarning)
 TEST(Messages, AFinerQualityTakesMoreRaysAndSaysHowGoodTheLightIs)
 {
     const Workplace place;
-    const auto rays = [&](const std::string& quality, double target) {
+    const auto rays = [&](const std::string& quality, double visible) {
         const Outcome bake = run_lumel(
             bake_of(own_scene("two-rooms.gltf"), place.path("out"), {"--quality", quality}));
         EXPECT_EQ(bake.code, 0) << bake.err;
         EXPECT_TRUE(has(bake.err + bake.out, "of the light around")) << bake.err << bake.out;
         const Json solution = report_in(place)["solution"];
-        EXPECT_LE(solution["estimated_eye_error"].get<double>(), target) << quality;
+        EXPECT_LE(solution["visible_noise"]["worst_chart"].get<double>(), visible) << quality;
+        EXPECT_LE(solution["estimated_eye_error"].get<double>(), 10.0 * visible) << quality;
         return solution["shots"].get<int>();
     };
-    const int draft = rays("draft", 0.05), good = rays("good", 0.025), fine = rays("fine", 0.01);
+    const int draft = rays("draft", 0.01), good = rays("good", 0.005), fine = rays("fine", 0.002);
     EXPECT_LE(draft, good);
     EXPECT_LT(2 * good, fine);
 }
@@ -76,8 +77,9 @@ TEST(Messages, ABakeThatEndsByDefaultSaysHowToGoOn)
     EXPECT_EQ(bake.code, 0) << bake.err;
     const Json solution = report_in(place)["solution"];
     EXPECT_EQ(has(bake.err + bake.out, "--quality good goes on"),
-              solution["estimated_eye_error"].get<double>() > 0.025);
-    EXPECT_LE(solution["shots"].get<int>(), 128);
+              solution["estimated_eye_error"].get<double>() > 0.05 ||
+                  solution["visible_noise"]["worst_chart"].get<double>() > 0.005);
+    EXPECT_LE(solution["shots"].get<int>(), 96);
 }
 
 TEST(Messages, ATimeThatIsOverAtOnceStillLeavesLight)

@@ -100,7 +100,7 @@ support::Solved solve(const SolveScene& world, double error)
     SolverOptions options;
     options.method = support::method("links");
     options.target_error = 0.0;
-    options.target_eye_error = error;
+    options.target_quality.eye_error = error;
     return support::solve_scene(world, options);
 }
 

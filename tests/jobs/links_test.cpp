@@ -326,9 +326,9 @@ TEST_P(StatedByLinks, IsTheRealErrorForAnEye)
     double stated = 0.0, real = 0.0;
     constexpr std::uint32_t kSeeds = 4;
     for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
-        const Solved solved = support::solve_scene(
-            world,
-            {.method = LinksOptions{.seed = seed}, .target_error = 0.0, .target_eye_error = 0.03});
+        const Solved solved = support::solve_scene(world, {.method = LinksOptions{.seed = seed},
+                                                           .target_error = 0.0,
+                                                           .target_quality = {.eye_error = 0.03}});
         double square = 0.0, count = 0.0;
         for (std::size_t i = 0; i < both.size(); ++i) {
             if (world.lumels.lumels[i].flags & kLumelBuried)

@@ -26,8 +26,8 @@ SolverOptions limits_of(const BakeRecord& baked)
         options.target_error = std::max(options.target_error, baked.error);
     if (ended_early && options.target_dark_error > 0.0)
         options.target_dark_error = std::max(options.target_dark_error, baked.dark_error);
-    if (ended_early && options.target_eye_error > 0.0)
-        options.target_eye_error = std::max(options.target_eye_error, baked.eye_error);
+    if (ended_early)
+        options.target_quality = reached_quality(baked);
     if (!options.has_target())
         options.target_error = SolverOptions{}.target_error;
     return options;

@@ -36,8 +36,11 @@ double solved_fraction(const SolverOptions& limits, const SolverState& state, do
         error = std::min(error, limits.target_error / state.error);
     if (limits.target_dark_error > 0.0 && state.dark_error > 0.0)
         error = std::min(error, limits.target_dark_error / state.dark_error);
-    if (limits.target_eye_error > 0.0 && state.eye_error > 0.0)
-        error = std::min(error, limits.target_eye_error / state.eye_error);
+    const Quality& quality = limits.target_quality;
+    if (quality.eye_error > 0.0 && state.eye_error > 0.0)
+        error = std::min(error, quality.eye_error / state.eye_error);
+    if (quality.visible_noise > 0.0 && state.visible_noise.worst_chart > 0.0)
+        error = std::min(error, quality.visible_noise / state.visible_noise.worst_chart);
     if (error < 1.0)
         fraction = std::max(fraction, std::pow(error, 1.0 / kSlope));
     return std::min(std::max(fraction, kFirstEstimate * state.begun), 1.0);
@@ -92,6 +95,9 @@ public:
             note += fmt::format(", of dark lumels {:.2f} %", 100.0 * state.dark_error);
         if (state.eye_error >= 0.0)
             note += fmt::format(", relative to the light around {:.2f} %", 100.0 * state.eye_error);
+        if (state.visible_noise.worst_chart >= 0.0)
+            note +=
+                fmt::format(", visible noise {:.2f} %", 100.0 * state.visible_noise.worst_chart);
         stages.note(note);
         next_ = 2 * state.shots;
     }
@@ -162,7 +168,9 @@ void tell_missed(const SolverOptions& options, const SolverState& state, Stages&
     };
     tell(state.error, options.target_error, "");
     tell(state.dark_error, options.target_dark_error, " of dark lumels");
-    tell(state.eye_error, options.target_eye_error, " relative to the light around");
+    tell(state.eye_error, options.target_quality.eye_error, " relative to the light around");
+    tell(std::max(state.visible_noise.worst_chart, 0.0), options.target_quality.visible_noise,
+         " of visible noise");
 }
 
 SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stages,

@@ -70,9 +70,9 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
     if (auto* links = std::get_if<LinksOptions>(&options.solver.method))
         links->rays = Rays::automatic;
     options.solver.target_error = baked.error > 0.0 ? baked.error : SolverOptions{}.target_error;
-    if (baked.solver.target_eye_error > 0.0) {
+    if (baked.solver.target_quality.is_given()) {
         options.solver.target_error = baked.solver.target_error;
-        options.solver.target_eye_error = std::max(baked.solver.target_eye_error, baked.eye_error);
+        options.solver.target_quality = reached_quality(baked);
     }
     const Setting setting(
         edit.now.scene,
@@ -137,7 +137,7 @@ std::vector<glm::vec3> light_over_links(const EditedScene& edit, StoredLinks& ke
     baked.error = state.error;
     baked.dark_error = state.dark_error;
     baked.eye_error = state.eye_error;
-    baked.visible_noise = solver.visible_noise();
+    baked.visible_noise = state.visible_noise;
     kept = solver.kept(edit.now.scene.hash);
     return solver.irradiance();
 }

@@ -13,6 +13,9 @@ constexpr std::array<float, 2> kCautionDirect = {1.0f, 0.5f};
 constexpr float kLeastDetail = 0.05f, kMostDetail = 4.0f;
 /// Deviation of the window over which gains are averaged [cells]; of the finest level.
 constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
+/// The same of the window for local noise [cells].
+constexpr float kNoiseSpread = 1.0f;
+constexpr float kLocalCaution = 3.0f;
 /// Radius of the window in deviations.
 constexpr float kGainRadius = 2.5f;
 
@@ -33,6 +36,7 @@ struct Moments {
         count += other.count;
         return *this;
     }
+    float noise() const { return std::max(mean - signal, 0.0f); }
     Moments operator*(float factor) const
     {
         return {factor * signal, factor * mean, factor * bound, factor * count};
@@ -94,10 +98,15 @@ void blur(std::vector<Moments>& cells, int width, int height, float spread)
     blur(cells, across, down, 1, across, bell);
 }
 
-float gain_of(const Moments& sums, const PyramidRule& rule, float caution)
+/// next: averages over the next cells.
+float gain_of(const Moments& sums, const Moments& next, const PyramidRule& rule, float caution)
 {
-    const float noise = std::max(sums.mean - sums.signal, 0.0f);
-    float signal = std::max(sums.signal - caution * noise, 0.0f);
+    float signal = std::max(sums.signal - caution * sums.noise(), 0.0f), noise = sums.noise();
+    if (rule.has_local_noise && next.count > 0.0f) {
+        const Moments here = next * (sums.count / next.count);
+        noise = here.noise();
+        signal = std::max(signal, here.signal - kLocalCaution * noise);
+    }
     if (rule.is_bounded)
         signal = std::clamp(signal, kLeastDetail * kLeastDetail * sums.bound,
                             kMostDetail * kMostDetail * sums.bound);
@@ -163,11 +172,14 @@ std::vector<float> gains_of(const FilterChart& chart, const FitLevel<Count>& lev
         }
     for (std::size_t cell = 0; cell < cells.size(); ++cell)
         octaves[cell] /= std::max(cells[cell].count, 1.0f);
+    std::vector<Moments> next = cells;
+    if (rule.has_local_noise)
+        blur(next, level.width, level.height, kNoiseSpread);
     cells = averaged(cells, octaves, level.width, level.height,
                      level.side == 1 ? kFinestGainSpread : kGainSpread);
     std::vector<float> gains(cells.size());
     for (std::size_t cell = 0; cell < cells.size(); ++cell)
-        gains[cell] = gain_of(cells[cell], rule, caution);
+        gains[cell] = gain_of(cells[cell], next[cell], rule, caution);
     return gains;
 }
 
@@ -192,12 +204,12 @@ float gain_at(const FitLevel<Count>& level, const std::vector<float>& gains, int
 
 PyramidRule rule_of_indirect()
 {
-    return {.caution = kCautionIndirect, .is_bounded = true};
+    return {.caution = kCautionIndirect, .is_bounded = true, .has_local_noise = false};
 }
 
 PyramidRule rule_of_direct()
 {
-    return {.caution = kCautionDirect, .is_bounded = false};
+    return {.caution = kCautionDirect, .is_bounded = false, .has_local_noise = true};
 }
 
 template <std::size_t Count>

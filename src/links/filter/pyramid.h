@@ -22,6 +22,9 @@ struct PyramidRule {
     std::span<const float> caution;
     /// Bounds the signal by the harmonic mean distance of ray hits [WH92].
     bool is_bounded;
+    /// Takes the noise from few cells: lumels that see all of a light, or nothing, are exact beside
+    /// those of its penumbra.
+    bool has_local_noise;
 };
 
 /// Indirect light, which varies over distances like those to its senders; and direct light, whose
@@ -36,8 +39,9 @@ PyramidRule rule_of_direct();
 ///     T = mean over pairs d_a · d_b,    ν = |mean d|² - T
 ///
 /// T is signal, as noise of different estimates is independent, and ν the noise of their mean, both
-/// averaged over cells nearby, of indirect light over those as far from other geometry [CPD07]: an
-/// empirical Wiener filter. All estimates have the same gains.
+/// averaged over cells nearby, of indirect light over those as far from other geometry [CPD07]; ν
+/// of direct light over the next cells only: an empirical Wiener filter. All estimates have the
+/// same gains.
 template <std::size_t Count>
 std::vector<FitLight<Count>> filter_chart(const FilterChart& chart,
                                           const std::array<const Estimates*, Count>& found,

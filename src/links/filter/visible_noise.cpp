@@ -21,8 +21,8 @@ constexpr std::size_t kFewest = 400;
 constexpr float kFaintestAround = 0.02f, kSurroundings = 2.0f;
 /// Charts below this fraction of the brightest are black.
 constexpr double kBlack = 1e-4;
-/// The worst chart is the one below which this fraction of the area is.
-constexpr double kArea = 0.95;
+/// The worst chart that counts is the one below which this fraction of charts is.
+constexpr double kMostCharts = 0.95;
 /// Radius of a Gaussian, in deviations.
 constexpr float kBellRadius = 4.0f;
 
@@ -171,14 +171,16 @@ double mean_product(const std::vector<float>& a, const std::vector<float>& b, st
     return sum / double(count);
 }
 
-/// Adds the power of a mean's noise and bias. bands_of: returns Bands of a function of the lumel.
+/// Power of a mean's noise and bias. bands_of: returns Bands of a function of the lumel. count: of
+/// lumels.
 template <class BandsOf>
-void add_power(const Mean& mean, const BandsOf& bands_of, ChartNoise& noise)
+NoisePower power_of(const Mean& mean, const BandsOf& bands_of, std::size_t count)
 {
+    NoisePower power{};
     for (int k = 0; k < 2; ++k) {
         const Bands apart = bands_of([&](std::size_t i) { return mean.apart[i][k]; });
         for (std::size_t b = 0; b < apart.size(); ++b)
-            noise.power[b] += mean_product(apart[b], apart[b], noise.lumels);
+            power[b] += mean_product(apart[b], apart[b], count);
     }
     std::array<Bands, 3> bend;
     for (int k = 0; k < 3; ++k)
@@ -186,9 +188,10 @@ void add_power(const Mean& mean, const BandsOf& bands_of, ChartNoise& noise)
     for (std::size_t b = 0; b < VisibleNoise::kBands; ++b) {
         double products = 0.0;
         for (std::size_t k = 0; k < bend.size(); ++k)
-            products += mean_product(bend[k][b], bend[(k + 1) % bend.size()][b], noise.lumels);
-        noise.power[b] += std::max(0.0, products / double(bend.size()));
+            products += mean_product(bend[k][b], bend[(k + 1) % bend.size()][b], count);
+        power[b] += std::max(0.0, products / double(bend.size()));
     }
+    return power;
 }
 
 /// The chart at a place. by_side: lumels_by_side().
@@ -211,12 +214,33 @@ NoiseChart chart_at(const ChartPlace& place, const SolveScene& scene,
 
 }  // namespace
 
+double ChartNoise::power_in(std::size_t band) const
+{
+    double sum = 0.0;
+    for (const NoisePower& one : power)
+        sum += one[band];
+    return sum;
+}
+
+std::size_t ChartNoise::worst_band() const
+{
+    std::size_t worst = 0;
+    for (std::size_t b = 1; b < VisibleNoise::kBands; ++b)
+        if (power_in(b) > power_in(worst))
+            worst = b;
+    return worst;
+}
+
 ChartNoise chart_noise(const NoiseChart& chart, const std::vector<float>& light,
                        const std::vector<const Mean*>& of)
 {
     const Grid open = open_surface(chart);
-    ChartNoise noise{.lumels = std::size_t(std::count(open.value.begin(), open.value.end(), 1.0f))};
-    if (noise.lumels < kFewest)
+    ChartNoise noise;
+    for (std::size_t t = 0; t < open.value.size(); ++t)
+        if (open.value[t] > 0.0f)
+            noise.lumels.push_back(chart.lumel[t]);
+    const std::size_t count = noise.lumels.size();
+    if (count < kFewest)
         return {};
     const auto values = [&](const auto& of_lumel) {
         Grid grid{chart.width, chart.height, std::vector<float>(open.value.size(), 0.0f)};
@@ -227,7 +251,7 @@ ChartNoise chart_noise(const NoiseChart& chart, const std::vector<float>& light,
     };
     const Grid own = values([&](std::size_t t) { return light[chart.lumel[t]]; });
     for (const float one : own.value)
-        noise.light += double(one) / double(noise.lumels);
+        noise.light += double(one) / double(count);
     if (!(noise.light > 0.0))
         return {};
     const Grid around = blurred(own, kSurroundings), weight = blurred(open, kSurroundings);
@@ -242,43 +266,60 @@ ChartNoise chart_noise(const NoiseChart& chart, const std::vector<float>& light,
             values([&](std::size_t t) { return relative[t] * of_lumel(chart.lumel[t]); }));
     };
     for (const Mean* mean : of)
-        add_power(*mean, bands_of, noise);
+        noise.power.push_back(power_of(*mean, bands_of, count));
     return noise;
 }
 
-VisibleNoise visible_noise(std::vector<ChartNoise> charts)
+std::vector<ChartNoise> in_order(std::vector<ChartNoise> charts)
 {
     double brightest = 0.0;
     for (const ChartNoise& chart : charts)
         brightest = std::max(brightest, chart.light);
     std::erase_if(charts, [&](const ChartNoise& chart) {
-        return chart.lumels == 0 || chart.light < kBlack * brightest;
+        return chart.lumels.empty() || chart.light < kBlack * brightest;
     });
+    std::ranges::stable_sort(
+        charts, {}, [](const ChartNoise& chart) { return chart.power_in(chart.worst_band()); });
+    return charts;
+}
+
+std::size_t worst_that_counts(const std::vector<ChartNoise>& charts)
+{
+    const auto size = [](const ChartNoise& chart) {
+        return std::sqrt(double(chart.lumels.size()));
+    };
+    double all = 0.0, below = 0.0;
+    for (const ChartNoise& chart : charts)
+        all += size(chart);
+    for (std::size_t n = 0; n < charts.size(); ++n) {
+        below += size(charts[n]);
+        if (below >= kMostCharts * all)
+            return n;
+    }
+    return 0;
+}
+
+VisibleNoise visible_noise(const std::vector<ChartNoise>& charts)
+{
     VisibleNoise result;
     if (charts.empty())
         return result;
-    const auto most = [](const ChartNoise& chart) { return std::ranges::max(chart.power); };
-    std::ranges::sort(charts, {}, most);
-    double all = 0.0, below = 0.0;
+    double all = 0.0;
     for (const ChartNoise& chart : charts) {
-        all += double(chart.lumels);
-        for (std::size_t b = 0; b < chart.power.size(); ++b)
-            result.bands[b] += double(chart.lumels) * chart.power[b];
+        const auto lumels = double(chart.lumels.size());
+        all += lumels;
+        for (std::size_t b = 0; b < result.bands.size(); ++b)
+            result.bands[b] += lumels * chart.power_in(b);
     }
     for (double& band : result.bands)
         band = std::sqrt(band / all);
-    for (const ChartNoise& chart : charts) {
-        below += double(chart.lumels);
-        if (below >= kArea * all) {
-            result.worst_chart = std::sqrt(most(chart));
-            break;
-        }
-    }
+    const ChartNoise& worst = charts[worst_that_counts(charts)];
+    result.worst_chart = std::sqrt(worst.power_in(worst.worst_band()));
     return result;
 }
 
-VisibleNoise visible_noise(const SolveScene& scene, const std::vector<float>& light,
-                           const std::vector<const Mean*>& of)
+std::vector<ChartNoise> noise_of_charts(const SolveScene& scene, const std::vector<float>& light,
+                                        const std::vector<const Mean*>& of)
 {
     const std::vector<std::uint32_t> by_side = lumels_by_side(scene.lumels);
     const std::vector<ChartPlace> places = chart_places(scene.lumels);
@@ -287,7 +328,7 @@ VisibleNoise visible_noise(const SolveScene& scene, const std::vector<float>& li
         for (std::size_t n = first; n < last; ++n)
             charts[n] = chart_noise(chart_at(places[n], scene, by_side), light, of);
     });
-    return visible_noise(std::move(charts));
+    return in_order(std::move(charts));
 }
 
 }  // namespace lumel

@@ -24,11 +24,17 @@ struct NoiseChart {
     }
 };
 
+/// Mean square of each band, relative to the light.
+using NoisePower = std::array<double, VisibleNoise::kBands>;
+
 /// Noise of one side of a chart.
 struct ChartNoise {
-    std::size_t lumels = 0;                            ///< that count; 0: too few to tell
-    double light = 0.0;                                ///< mean luminance [lx]
-    std::array<double, VisibleNoise::kBands> power{};  ///< mean square relative to the light
+    std::vector<std::uint32_t> lumels;  ///< that count; none: too few to tell
+    double light = 0.0;                 ///< their mean luminance [lx]
+    std::vector<NoisePower> power;      ///< by each mean
+
+    double power_in(std::size_t band) const;
+    std::size_t worst_band() const;
 };
 
 /// The noise of light on a chart: of lumels at some distance from its rim and from blocked ones.
@@ -38,11 +44,19 @@ struct ChartNoise {
 ChartNoise chart_noise(const NoiseChart& chart, const std::vector<float>& light,
                        const std::vector<const Mean*>& of);
 
-/// Of all charts together. Those that are nearly black do not count.
-VisibleNoise visible_noise(std::vector<ChartNoise> charts);
+/// Of the charts of a scene, the cleanest first, without those that are nearly black or too small
+/// to tell. The other arguments: as in chart_noise().
+std::vector<ChartNoise> noise_of_charts(const SolveScene& scene, const std::vector<float>& light,
+                                        const std::vector<const Mean*>& of);
 
-/// Of a scene. The other arguments: as in chart_noise().
-VisibleNoise visible_noise(const SolveScene& scene, const std::vector<float>& light,
-                           const std::vector<const Mean*>& of);
+/// Without charts that are nearly black or too small to tell, the cleanest first.
+std::vector<ChartNoise> in_order(std::vector<ChartNoise> charts);
+
+/// The noisiest chart that counts of in_order(), 0 for none: below it are 95 % of all charts, by
+/// the roots of their areas, so that the ground around a house does not hide its rooms.
+std::size_t worst_that_counts(const std::vector<ChartNoise>& charts);
+
+/// Of in_order() together.
+VisibleNoise visible_noise(const std::vector<ChartNoise>& charts);
 
 }  // namespace lumel

@@ -33,43 +33,14 @@
 namespace lumel {
 namespace {
 
-/// Rays per lumel in each solution of the first round; powers of two stratify best.
-constexpr std::uint32_t kFirstRays = 8;
-/// Minimum and maximum rays of a later round, relative to the rays so far.
-constexpr double kMinAdded = 0.4, kMaxAdded = 3.0;
-/// Rays allocated by deviation reduce the variance like 1 / kAdaptiveGain as many uniform ones.
-constexpr double kAdaptiveGain = 0.6;
-/// Rays per lumel in all solutions for an estimated error of 5 %: 24 in Cornell's box, 34 in
-/// Sponza, 74 in the town of scenes/town.py.
-constexpr double kLikelyRays = 64.0;
-/// [bytes] of a link, and of a lumel per round and solution: number of its links.
-constexpr double kLinkBytes = sizeof(LinkEnd), kRowBytes = sizeof(std::uint16_t);
-/// Fraction of lumels with direct light per cell: maximum seen.
-constexpr double kVarying = 0.1;
 /// Blocks of links per step, at the first round's number of rays.
 constexpr std::size_t kBlocksPerStep = 128;
 /// Blocks per step when rasterising, whose cost hardly grows with them: a million rays (200 MB).
 constexpr std::size_t kBlocksPerDrawing = 512;
-/// Refines direct light if its variance is this multiple of its target; at most to kMinDirect × the
-/// present variance in one pass.
-constexpr double kTooUncertain = 1.25, kMinDirect = 1.0 / 16.0;
-/// Cost of a link relative to a shadow ray, sweeps and filter included.
-constexpr double kCostOfLink = 1.5;
-/// Variance of rays after a round that adds kMaxAdded, relative to that before.
-constexpr double kNextRound = 1.0 / (1.0 + kMaxAdded);
-/// Bounds on the fraction of the target variance that direct light may have.
-constexpr double kMinShare = 0.1, kMaxShare = 0.6;
 /// Fraction of the first round that direct light takes, for the progress bar only.
 constexpr double kDirectOfRound = 0.5;
-/// What sweeps may leave out, relative to each sub-lumel's light: at least this, and this fraction
-/// of a target error.
-constexpr double kResidual = 1e-3, kResidualOfTarget = 0.05;
 /// Minimum mean albedo of rooms whose level is balanced.
 constexpr double kBrightRoom = 0.95;
-/// Lumels below this fraction of the mean are dark.
-constexpr double kDark = 1.0 / 3.0;
-
-constexpr double kShareOfFree = 0.5;
 
 /// Adds the elapsed time to a stage [ms].
 class Stopwatch {
@@ -90,11 +61,6 @@ private:
 
 }  // namespace
 
-std::uint64_t free_bytes_for_links()
-{
-    return std::uint64_t(kShareOfFree * double(available_memory_bytes()));
-}
-
 LinkRadiosity::LinkRadiosity(const gpu::Device& device, const SolveScene& scene,
                              const LinksOptions& options, const SolveLimits& limits, Parts parts)
     : LinkRadiosity(scene, casters_for(device, scene.rays, options.rays), options, limits, parts)
@@ -112,7 +78,8 @@ LinkRadiosity::LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters,
     : options_(options),
       target_error_(limits.target_error),
       target_dark_error_(limits.target_dark_error),
-      target_eye_error_(limits.target_eye_error),
+      target_eye_error_(limits.target_quality.eye_error),
+      target_visible_noise_(limits.target_quality.visible_noise),
       most_shots_(limits.max_shots),
       most_bytes_(limits.max_bytes),
       parts_wanted_(parts),
@@ -121,46 +88,6 @@ LinkRadiosity::LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters,
 }
 
 LinkRadiosity::~LinkRadiosity() = default;
-
-std::uint64_t LinkRadiosity::first_bytes(std::size_t lumels, std::uint32_t even_rays)
-{
-    const double rays = even_rays > 0 ? double(even_rays) : double(kSolutions * kFirstRays);
-    return std::uint64_t(double(lumels) * (rays * kLinkBytes + kSolutions * kRowBytes));
-}
-
-std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shots)
-{
-    constexpr double kFirst = kSolutions * kFirstRays;
-    const double rays = shots > 0 ? std::min(double(shots), kLikelyRays) : kLikelyRays;
-    double rounds = 1.0;
-    for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinAdded)
-        ++rounds;
-    return std::uint64_t(double(lumels) * (rays * kLinkBytes + rounds * kSolutions * kRowBytes));
-}
-
-std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels)
-{
-    constexpr std::size_t kOfSources = 2 * sizeof(glm::vec3) + sizeof(std::uint32_t);
-    constexpr std::size_t kOfMean = 2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 2 * sizeof(float);
-    constexpr std::size_t kOfOrder = sizeof(std::uint32_t), kOfGroups = sizeof(std::uint32_t);
-    const std::size_t of_parts =
-        kSolutions * (kOfSources + sizeof(glm::vec3)) + kOfGroups + sizeof(glm::vec3);
-    const std::size_t of_lumels =
-        sizeof(WorldLumel) + kOfOrder + 2 * kOfMean + sizeof(std::uint16_t);
-    const auto varying = std::size_t(kVarying * double(lumels));
-    return lumels * (of_lumels + of_parts) + pieces * (sizeof(Piece) + sizeof(Facet)) +
-           Cells::bytes(lumels) + SubLumels::bytes(lumels, lumels) +
-           DirectEstimator::bytes(lumels, varying) + NearLumels::bytes(texels) +
-           ChartFilter::bytes(lumels, texels);
-}
-
-std::uint64_t LinkRadiosity::sweep_bytes(std::size_t lumels)
-{
-    const std::uint64_t sweep = lumels * 3 * sizeof(glm::vec4);
-    const std::uint64_t mean = lumels * (kSolutions * sizeof(glm::vec3) + sizeof(float)) +
-                               ChartFilter::working_bytes(lumels);
-    return std::max(sweep, mean);
-}
 
 void LinkRadiosity::step()
 {
@@ -207,7 +134,7 @@ void LinkRadiosity::state(Archive& archive)
     archive(*direct_, direct_mean_.light, direct_mean_.noise, direct_mean_.wrong,
             direct_mean_.apart, direct_mean_.bend, round_, mean_rays_, means_, rays_, traced_,
             mean_.light, mean_.noise, mean_.wrong, mean_.apart, mean_.bend, mean_light_, adapted_,
-            all_, dark_, eye_, state_, times_);
+            all_, dark_, eye_, refined_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
         archive(*links_[k], sources_[k].rays, received_[k]);
 }
@@ -229,6 +156,7 @@ void LinkRadiosity::read_state(StateReader& reader)
     state_.full = false;
     if (!is_consistent())
         reader.fail();
+    find_visible_noise();
 }
 
 /// True if the state that was read is of these lumels and sub-lumels.
@@ -332,105 +260,6 @@ void LinkRadiosity::begin_links()
         links->rounds.emplace_back(tracer_->blocks());
 }
 
-/// Starts a round with the rays that the target error requires, within limits.
-void LinkRadiosity::begin_round()
-{
-    if (has_known_round()) {
-        begin_known_round();
-        return;
-    }
-    mean_rays_ = state_.shots > 0         ? more_rays()
-                 : options_.even_rays > 0 ? double(options_.even_rays) / double(kSolutions)
-                                          : kFirstRays;
-    const double fit = rays_that_fit();
-    if (state_.shots > 0 && fit < kMinAdded * double(state_.shots) / double(kSolutions)) {
-        state_.full = true;
-        stage_ = Stage::direct;  // without work
-        return;
-    }
-    if (options_.even_rays == 0)
-        mean_rays_ = std::min(mean_rays_, std::max(fit, double(kFirstRays)));
-    if (most_shots_ > state_.shots)
-        mean_rays_ = std::min(mean_rays_, double(most_shots_ - state_.shots) / double(kSolutions));
-    share_out_rays();
-    if (state_.shots > 0)
-        leave_sealed_space();
-    filter_.reset();
-    begin_links();
-}
-
-/// [P] 1 for sub-lumels that send light or receive some.
-std::vector<char> LinkRadiosity::lit_parts() const
-{
-    std::vector<char> lit(parts_->count(), 0);
-    for (std::uint32_t p = 0; p < lit.size(); ++p) {
-        lit[p] = work_.lumels()[parts_->lumel(p)].emission != glm::vec3(0.0f);
-        for (const std::vector<glm::vec3>& received : received_)
-            lit[p] |= received[p] != glm::vec3(0.0f);
-    }
-    for (std::size_t i = 0; i < work_.lumels().size(); ++i)
-        for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
-            if (direct_->at(i, c) != glm::vec3(0.0f))
-                lit[parts_->part(i, c)] = 1;
-    return lit;
-}
-
-/// Lumels that no light can reach send no more rays: as long as no link, theirs or one to them,
-/// joins them with light.
-void LinkRadiosity::leave_sealed_space()
-{
-    const std::vector<char> lit = lit_parts();
-    if (std::find(lit.begin(), lit.end(), 0) == lit.end())
-        return;
-    for (std::size_t k = 0; k < kSolutions; ++k)
-        sealed_->join(*links_[k], k);
-    const std::vector<char> sealed = sealed_->sealed(lit);
-    for (std::size_t i = 0; i < sealed.size(); ++i)
-        if (sealed[i])
-            rays_[i] = 0;
-}
-
-/// Further rays per lumel and solution for the target error.
-double LinkRadiosity::more_rays() const
-{
-    const double so_far = double(state_.shots) / double(kSolutions);
-    double more = so_far;
-    if (const std::vector<Wanted> all = wanted(); !all.empty()) {
-        double ratio = 0.0;
-        for (const Wanted& one : all) {
-            const double square = one.error * one.error;
-            const double left = square - std::min(one.now.direct, kMaxShare * square);
-            ratio = std::max(ratio, one.now.rays / left);
-        }
-        more = std::clamp(kAdaptiveGain * so_far * (ratio - 1.0), kMinAdded * so_far,
-                          kMaxAdded * so_far);
-    }
-    return std::min(more, double(kMaxLinks));
-}
-
-/// Further rays per lumel and solution that fit in memory.
-double LinkRadiosity::rays_that_fit() const
-{
-    if (most_bytes_ == 0)
-        return kMaxLinks;
-    double taken = 0.0;
-    for (const std::optional<LinkTable>& links : links_)
-        taken += double(links->bytes());
-    const double of_ray =
-        state_.shots > 0 ? taken / double(state_.shots) : double(work_.order.size()) * kLinkBytes;
-    const double rows = kSolutions * double(work_.order.size()) * kRowBytes;
-    return std::max(double(most_bytes_) - taken - rows, 0.0) / (kSolutions * of_ray);
-}
-
-/// What sweeps leave out, relative to each sub-lumel's light: little beside the target errors.
-double LinkRadiosity::sweep_residual() const
-{
-    double target = 0.0;
-    for (const Wanted& one : wanted())
-        target = target > 0.0 ? std::min(target, one.error) : one.error;
-    return std::max(kResidual, kResidualOfTarget * target);
-}
-
 /// Solves for all bounces over the links of each solution.
 void LinkRadiosity::solve()
 {
@@ -483,80 +312,6 @@ void LinkRadiosity::balance(std::size_t k)
             factor[c] = float(reflected[c] / absorbed[c]);
     for (glm::vec3& light : received_[k])
         light *= factor;
-}
-
-/// Target errors, with current values.
-std::vector<LinkRadiosity::Wanted> LinkRadiosity::wanted() const
-{
-    std::vector<Wanted> result;
-    if (target_error_ > 0.0)
-        result.push_back({target_error_, all_});
-    if (target_dark_error_ > 0.0)
-        result.push_back({target_dark_error_, dark_});
-    if (target_eye_error_ > 0.0)
-        result.push_back({target_eye_error_, eye_});
-    return result;
-}
-
-/// Starts the next stage: refines direct light, or adds links.
-void LinkRadiosity::go_on()
-{
-    const std::vector<Wanted> all = wanted();
-    const bool reached = std::all_of(all.begin(), all.end(), [](const Wanted& one) {
-        return one.now.rays + one.now.direct <= one.error * one.error;
-    });
-    const bool is_even = options_.even_rays > 0;
-    if ((reached && !all.empty()) || is_even) {
-        state_.ended = is_even;
-        stage_ = Stage::direct;  // without work
-        return;
-    }
-    if (refine_direct())
-        stage_ = Stage::direct;
-    else if (stored_ && then_ == Then::end)
-        state_.ended = true;
-    else
-        begin_round();
-}
-
-/// Fraction of the target variance for direct light. For variances that fall as 1 / rays, the total
-/// cost is minimal if they are in proportion to √(variance × cost).
-double LinkRadiosity::share_of_direct(const Errors& now) const
-{
-    const double of_rays = kCostOfLink * now.rays * double(state_.shots * work_.order.size());
-    const double of_direct = now.direct * double(direct_->rays());
-    const double root = std::sqrt(of_direct), sum = root + std::sqrt(of_rays);
-    return sum > 0.0 ? std::clamp(root / sum, kMinShare, kMaxShare) : kMaxShare;
-}
-
-/// Schedules refinement of direct light if its noise dominates: beside that of the rays after the
-/// next round, as long as they are above the target.
-bool LinkRadiosity::refine_direct()
-{
-    double share = 1.0;
-    const auto cut = [&](double square, const Errors& now) {
-        const double most = share_of_direct(now) * std::max(square, kNextRound * now.rays);
-        if (now.direct > kTooUncertain * most)
-            share = std::min(share, std::max(most / now.direct, kMinDirect));
-    };
-    const std::vector<Wanted> all = wanted();
-    for (const Wanted& one : all)
-        cut(one.error * one.error, one.now);
-    if (all.empty())
-        cut(all_.rays + all_.direct, all_);
-    if (!(share < 1.0))
-        return false;
-    // By the variance that the filter leaves, as rays are allocated.
-    std::vector<double> weight = weights();
-    if (const ChartFilter* const by = filter()) {
-        const Mean plain = plain_mean(direct_->half(0), direct_->half(1));
-        const std::vector<double> left =
-            by->variance_left({plain.noise.begin(), plain.noise.end()},
-                              {direct_mean_.noise.begin(), direct_mean_.noise.end()});
-        for (std::size_t i = 0; i < weight.size(); ++i)
-            weight[i] *= left[i];
-    }
-    return direct_->refine(share, state_.shots * work_.order.size(), weight);
 }
 
 /// Irradiance by rays at a lumel in one solution, of the requested parts of light [lx].
@@ -615,125 +370,6 @@ void LinkRadiosity::combine()
             found[k][i] = brought(i, k);
     }
     mean_ = filter() ? filter()->indirect(found) : plain_mean(found);
-}
-
-/// Adds the error of direct light to that of rays.
-void LinkRadiosity::estimate()
-{
-    struct Sums {
-        SquaredError rays;
-        SquaredError direct;
-        double light = 0.0, count = 0.0;
-
-        /// √(Σ d² / 3n) / (Σ H / 3n), squared
-        double relative(double squares) const
-        {
-            return light > 0.0 ? 3.0 * count * squares / (light * light) : 0.0;
-        }
-        Errors errors() const { return {relative(rays.sum()), relative(direct.sum())}; }
-    };
-    direct_mean_ = filter() && parts_wanted_ != Parts::indirect
-                       ? filter()->direct(direct_->half(0), direct_->half(1))
-                       : plain_mean(direct_->half(0), direct_->half(1));
-    const auto add = [&](Sums& sums, std::size_t i, double light) {
-        if (parts_wanted_ != Parts::indirect)
-            sums.direct.add(direct_mean_, i);
-        if (!mean_.light.empty())
-            sums.rays.add(mean_, i);
-        sums.light += light;
-        sums.count += 1.0;
-    };
-    const auto visit = [&](const auto& what) {
-        for (std::size_t i = 0; i < work_.lumels().size(); ++i)
-            if (!work_.is_buried(i)) {
-                const glm::vec3 all = arrived(i);
-                what(i, double(all.r + all.g + all.b));
-            }
-    };
-    Sums all, dark;
-    visit([&](std::size_t i, double light) { add(all, i, light); });
-    mean_light_ = all.light / std::max(all.count, 1.0);
-    visit([&](std::size_t i, double light) {
-        if (light < kDark * mean_light_)
-            add(dark, i, light);
-    });
-    all_ = all.errors();
-    dark_ = dark.errors();
-    state_.error = std::sqrt(all_.rays + all_.direct);
-    eye_ = estimate_for_eye();
-    state_.dark_error = std::sqrt(dark_.rays + dark_.direct);
-    state_.eye_error = std::sqrt(eye_.rays + eye_.direct);
-}
-
-VisibleNoise LinkRadiosity::visible_noise() const
-{
-    if (mean_.light.empty())
-        return {};
-    std::vector<float> light(work_.lumels().size());
-    for (std::size_t i = 0; i < light.size(); ++i)
-        light[i] = float(luminance(arrived(i)));
-    std::vector<const Mean*> means = {&mean_};
-    if (parts_wanted_ != Parts::indirect)
-        means.push_back(&direct_mean_);
-    return lumel::visible_noise(work_.scene, light, means);
-}
-
-/// Mean of squared errors relative to the light that an eye adapts to.
-LinkRadiosity::Errors LinkRadiosity::estimate_for_eye()
-{
-    std::vector<double> light(work_.lumels().size());
-    for (std::size_t i = 0; i < light.size(); ++i) {
-        const glm::vec3 all = arrived(i);
-        light[i] = double(all.r + all.g + all.b);
-    }
-    adapted_ = adapted_light(work_.scene.lumels, light);
-    SquaredError rays, direct;
-    double count = 0.0;
-    for (std::size_t i = 0; i < light.size(); ++i) {
-        if (work_.is_buried(i))
-            continue;
-        count += 1.0;
-        if (!(adapted_[i] > 0.0))
-            continue;
-        // √(Σ d² / 3) / (Σ adapted / 3), squared
-        const double weight = 3.0 / (adapted_[i] * adapted_[i]);
-        if (parts_wanted_ != Parts::indirect)
-            direct.add(direct_mean_, i, weight);
-        if (!mean_.light.empty())
-            rays.add(mean_, i, weight);
-    }
-    return {rays.sum() / std::max(count, 1.0), direct.sum() / std::max(count, 1.0)};
-}
-
-/// Irradiance at a lumel, of the requested parts of light [lx].
-glm::vec3 LinkRadiosity::arrived(std::size_t i) const
-{
-    const glm::vec3 direct = parts_wanted_ == Parts::indirect ? glm::vec3(0.0f)
-                             : direct_mean_.light.empty()     ? direct_->mean(i)
-                                                              : direct_mean_.light[i];
-    return mean_.light.empty() ? direct : direct + mean_.light[i];
-}
-
-/// The square of one lumel is a rough estimate, so that of its neighbours counts too.
-std::vector<float> LinkRadiosity::error_estimate() const
-{
-    std::vector<float> error(work_.lumels().size(), 1.0f);
-    if (mean_.light.empty())
-        return error;
-    std::vector<double> square(error.size());
-    for (std::size_t i = 0; i < square.size(); ++i)
-        square[i] = double(mean_.noise[i]) +
-                    (parts_wanted_ == Parts::indirect ? 0.0 : double(direct_mean_.noise[i]));
-    const std::vector<double> deviation = deviation_nearby(square, work_.order, 1.0);
-    for (std::size_t i = 0; i < error.size(); ++i) {
-        const glm::vec3 all = arrived(i);
-        const double light = double(all.r + all.g + all.b);
-        // √(Σ d² / 3) / (Σ H / 3)
-        error[i] = work_.is_buried(i) || !(light > 0.0)
-                       ? 0.0f
-                       : float(std::min(std::sqrt(3.0) * deviation[i] / light, 1.0));
-    }
-    return error;
 }
 
 std::vector<glm::vec3> LinkRadiosity::irradiance()

@@ -4,9 +4,11 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "links/direct/direct.h"
 #include "links/filter/filter.h"
+#include "links/filter/visible_noise.h"
 #include "links/kept/link_changes.h"
 #include "links/trace/links_options.h"
 #include "links/trace/sealed_space.h"
@@ -61,7 +63,6 @@ public:
     /// [N] Estimated error of each lumel relative to its light, 0…1, without the filter's bias; 1
     /// before the first round has ended, 0 for buried lumels.
     std::vector<float> error_estimate() const;
-    VisibleNoise visible_noise() const override;
     const gpu::StageTimes& times() const override { return times_; }
     double longest_submission() const override { return 0.0; }
     std::string rays() const override
@@ -94,6 +95,11 @@ private:
                   const SolveLimits& limits, Parts parts);
 
     static constexpr std::uint32_t kMaxLinks = 4096;  ///< of a lumel in a round and solution
+    /// Rays per lumel in each solution of the first round; powers of two stratify best.
+    static constexpr std::uint32_t kFirstRays = 8;
+    /// Minimum rays of a later round, relative to the rays so far.
+    static constexpr double kMinAdded = 0.4;
+    static constexpr double kLinkBytes = sizeof(LinkEnd);
 
     enum class Stage { begin, direct, links, solve };
     /// Squared error by rays and by direct light.
@@ -103,6 +109,9 @@ private:
     struct Wanted {
         double error;  ///< target
         Errors now;
+        bool is_visible = false;  ///< of visible noise on charts
+
+        bool is_reached() const { return now.rays + now.direct <= error * error; }
     };
 
     template <class Archive>
@@ -120,8 +129,17 @@ private:
     StoredLinks::Round stored_round(std::size_t round, const LinkNumbers& stored) const;
     bool shares_directions() const;
     std::vector<double> rays_so_far() const;
-    std::vector<double> deviation_of_ray(const std::vector<double>& sent);
-    void share_out_rays();
+    std::vector<double> deviation_of_ray(const std::vector<double>& sent,
+                                         const std::vector<double>& weight);
+    void send_first_rays(double most);
+    std::vector<double> rays_by_deviation(double mean, const std::vector<double>& sent);
+    void add_rays_of_charts(const std::vector<double>& sent, std::vector<double>& rays);
+    void share_out_rays(double most);
+    double rays_for(const ChartNoise& chart) const;
+    static Errors errors_in(const ChartNoise& chart, std::size_t band);
+    std::span<const ChartNoise> noisy_charts() const;
+    std::vector<double> chart_weights() const;
+    void find_visible_noise();
     std::vector<char> lit_parts() const;
     void leave_sealed_space();
     double sweep_residual() const;
@@ -145,7 +163,7 @@ private:
     Errors estimate_for_eye();
 
     const LinksOptions options_;
-    const double target_error_, target_dark_error_, target_eye_error_;
+    const double target_error_, target_dark_error_, target_eye_error_, target_visible_noise_;
     const std::uint64_t most_shots_;  ///< 0: no limit
     const std::uint64_t most_bytes_;  ///< memory limit of links, 0: no limit
     const Parts parts_wanted_;
@@ -176,6 +194,11 @@ private:
     double mean_light_ = 0.0;          ///< summed over channels [lx]
     std::vector<double> adapted_;      ///< [N] adapted_light() of the present estimate
     Errors all_, dark_, eye_;
+    std::vector<ChartNoise> noise_;  ///< in_order(), of the present estimate
+    Errors visible_;                 ///< of the worst chart that counts
+    /// Squared error of direct light before its last pass in this round: of lumels, of charts; 0:
+    /// none.
+    std::array<double, 2> refined_{};
     SolverState state_;
     gpu::StageTimes times_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/core/luminance.h"
 #include "links/direct/deviation.h"
 #include "links/trace/links.h"
 
@@ -15,8 +16,8 @@ constexpr double kEvenShare = 0.25;
 constexpr std::uint16_t kFirstOfCut = 32;
 /// Bisection steps for the rays that all lumels add.
 constexpr int kFillSteps = 24;
-/// Minimum brightness in ray allocation, relative to the mean.
-constexpr double kDarkest = 1e-2;
+/// Minimum brightness in ray allocation, relative to the mean, and to that of the chart.
+constexpr double kDarkest = 1e-2, kDarkestOfChart = 0.02;
 
 /// The scale at which sum(scale) reaches `wanted`. sum: increasing, without bound. start: above 0.
 template <class Sum>
@@ -50,6 +51,35 @@ std::vector<double> LinkRadiosity::weights() const
     return weight;
 }
 
+/// The charts whose visible noise is above its target, among those that count.
+std::span<const ChartNoise> LinkRadiosity::noisy_charts() const
+{
+    if (!(target_visible_noise_ > 0.0) || noise_.empty())
+        return {};
+    const auto is_clean = [&](const ChartNoise& chart) {
+        return chart.power_in(chart.worst_band()) <= target_visible_noise_ * target_visible_noise_;
+    };
+    const auto counts = std::span(noise_).first(worst_that_counts(noise_) + 1);
+    return counts.subspan(
+        std::size_t(std::ranges::partition_point(counts, is_clean) - counts.begin()));
+}
+
+/// [N] Weight of each lumel's squared error for the noise of noisy_charts(). Variances of charts
+/// end equal if their weights are in proportion to what they are now.
+std::vector<double> LinkRadiosity::chart_weights() const
+{
+    std::vector<double> weight(work_.order.size(), 0.0);
+    for (const ChartNoise& chart : noisy_charts()) {
+        const double power = chart.power_in(chart.worst_band());
+        for (const std::uint32_t i : chart.lumels) {
+            const double light =
+                std::max(double(luminance(arrived(i))), kDarkestOfChart * chart.light);
+            weight[i] = power / (light * light);
+        }
+    }
+    return weight;
+}
+
 /// [N] Rays of each lumel so far that count, per solution.
 std::vector<double> LinkRadiosity::rays_so_far() const
 {
@@ -64,9 +94,9 @@ std::vector<double> LinkRadiosity::rays_so_far() const
 /// [N] Weighted deviation of one ray of each lumel that the filter leaves, estimated from other
 /// lumels: rays allocated by a lumel's own error, or by light that the filter spread from it, would
 /// darken the result. sent: rays_so_far().
-std::vector<double> LinkRadiosity::deviation_of_ray(const std::vector<double>& sent)
+std::vector<double> LinkRadiosity::deviation_of_ray(const std::vector<double>& sent,
+                                                    const std::vector<double>& weight)
 {
-    const std::vector<double> weight = weights();
     std::vector<double> raw(work_.order.size()), filtered(work_.order.size());
     for (std::size_t i = 0; i < raw.size(); ++i) {
         const double scale = weight[i] * sent[i];
@@ -83,20 +113,30 @@ std::vector<double> LinkRadiosity::deviation_of_ray(const std::vector<double>& s
     return deviation;
 }
 
-/// Allocates rays. The sum of variances is minimal if all rays of a lumel are proportional to the
-/// deviation of one; lumels are filled up to that. Some rays are uniform, since lumels whose rays
-/// have not found a light yet seem noiseless.
-void LinkRadiosity::share_out_rays()
+/// Rays of the first round: as many for all, but more for cut lumels. most: per lumel.
+void LinkRadiosity::send_first_rays(double most)
 {
+    mean_rays_ = options_.even_rays > 0 ? double(options_.even_rays) / double(kSolutions)
+                                        : double(kFirstRays);
+    mean_rays_ = std::min(mean_rays_, most);
     rays_.assign(work_.order.size(), std::uint16_t(std::lround(mean_rays_)));
-    if (state_.shots == 0) {
-        if (options_.even_rays == 0 && rays_that_fit() >= double(kFirstOfCut))
-            for (std::size_t i = 0; i < rays_.size(); ++i)
-                if (parts_->is_cut(i))
-                    rays_[i] = std::max(rays_[i], kFirstOfCut);
+    if (options_.even_rays > 0 || rays_that_fit() < double(kFirstOfCut))
         return;
-    }
-    const std::vector<double> sent = rays_so_far(), deviation = deviation_of_ray(sent);
+    for (std::size_t i = 0; i < rays_.size(); ++i)
+        if (parts_->is_cut(i))
+            rays_[i] = std::max(rays_[i], kFirstOfCut);
+}
+
+/// [N] Rays that lumels add to `sent` for errors over all of them, `mean` on average. The sum of
+/// variances is minimal if all rays of a lumel are proportional to the deviation of one; lumels are
+/// filled up to that. Some rays are uniform, since lumels whose rays have not found a light yet
+/// seem noiseless.
+std::vector<double> LinkRadiosity::rays_by_deviation(double mean, const std::vector<double>& sent)
+{
+    std::vector<double> rays(sent.size(), 0.0);
+    if (!(mean > 0.0))
+        return rays;
+    const std::vector<double> deviation = deviation_of_ray(sent, weights());
     double lit = 0.0, widest = 0.0;
     for (std::size_t i = 0; i < deviation.size(); ++i)
         if (!work_.is_buried(i)) {
@@ -104,20 +144,62 @@ void LinkRadiosity::share_out_rays()
             widest = std::max(widest, deviation[i]);
         }
     if (!(widest > 0.0))
-        return;
+        return std::vector<double>(sent.size(), mean);
     const auto added = [&](std::size_t i, double scale) {
         return work_.is_buried(i) ? 0.0 : std::max(scale * deviation[i] - sent[i], 0.0);
     };
-    const double wanted = (1.0 - kEvenShare) * mean_rays_ * lit;
-    const double scale = scale_for(wanted, 1.0 / widest, [&](double tried) {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < deviation.size(); ++i)
-            sum += added(i, tried);
-        return sum;
-    });
-    for (std::size_t i = 0; i < deviation.size(); ++i)
-        rays_[i] = std::uint16_t(std::clamp(std::lround(kEvenShare * mean_rays_ + added(i, scale)),
-                                            0l, long(kMaxLinks)));
+    const double scale =
+        scale_for((1.0 - kEvenShare) * mean * lit, 1.0 / widest, [&](double tried) {
+            double sum = 0.0;
+            for (std::size_t i = 0; i < deviation.size(); ++i)
+                sum += added(i, tried);
+            return sum;
+        });
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        rays[i] = kEvenShare * mean + added(i, scale);
+    return rays;
+}
+
+/// Raises the rays that lumels add to `sent` on charts whose visible noise is above its target;
+/// within a chart all rays are in proportion to the deviation of one.
+void LinkRadiosity::add_rays_of_charts(const std::vector<double>& sent, std::vector<double>& rays)
+{
+    const std::span<const ChartNoise> noisy = noisy_charts();
+    if (noisy.empty())
+        return;
+    const std::vector<double> deviation = deviation_of_ray(sent, chart_weights());
+    for (const ChartNoise& chart : noisy) {
+        const double ratio = rays_for(chart);
+        if (ratio <= 1.0)
+            continue;
+        double sum = 0.0, of_deviations = 0.0;
+        for (const std::uint32_t i : chart.lumels) {
+            sum += sent[i];
+            of_deviations += deviation[i];
+        }
+        if (!(of_deviations > 0.0))
+            continue;
+        for (const std::uint32_t i : chart.lumels)
+            rays[i] = std::max(rays[i], ratio * sum / of_deviations * deviation[i] - sent[i]);
+    }
+}
+
+/// Allocates the rays of a later round, at most `most` per lumel.
+void LinkRadiosity::share_out_rays(double most)
+{
+    const std::vector<double> sent = rays_so_far();
+    std::vector<double> rays = rays_by_deviation(std::min(more_rays(), most), sent);
+    add_rays_of_charts(sent, rays);
+    double sum = 0.0, lit = 0.0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        sum += rays[i];
+        lit += work_.is_buried(i) ? 0.0 : 1.0;
+    }
+    mean_rays_ = sum / std::max(lit, 1.0);
+    const double scale = mean_rays_ > most ? most / mean_rays_ : 1.0;
+    mean_rays_ *= scale;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        rays_[i] = std::uint16_t(std::clamp(std::lround(scale * rays[i]), 0l, long(kMaxLinks)));
 }
 
 }  // namespace lumel

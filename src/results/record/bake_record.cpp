@@ -1,5 +1,6 @@
 #include "results/record/bake_record.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 
@@ -191,6 +192,16 @@ BakeRecord record_of(const JsonView& report, const std::string& folder)
     report.each("files",
                 [&](const JsonView& file, std::size_t) { record.files.push_back(file.string()); });
     return record;
+}
+
+Quality reached_quality(const BakeRecord& record)
+{
+    const auto reached = [](double wanted, double now) {
+        return wanted > 0.0 ? std::max(wanted, now) : 0.0;
+    };
+    const Quality& wanted = record.solver.target_quality;
+    return {.visible_noise = reached(wanted.visible_noise, record.visible_noise.worst_chart),
+            .eye_error = reached(wanted.eye_error, record.eye_error)};
 }
 
 BakeRecord read_bake_record(const std::string& folder)

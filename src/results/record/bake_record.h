@@ -54,6 +54,9 @@ struct BakeRecord {
     std::vector<std::string> files;  ///< written
 };
 
+/// The quality asked for, or, if that is worse, the one reached.
+Quality reached_quality(const BakeRecord& record);
+
 /// Atlas options as settings of a report.
 Json atlas_settings(const AtlasOptions& options);
 

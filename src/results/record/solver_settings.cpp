@@ -22,8 +22,13 @@ void each_limit(Options& options, const Visit& visit)
     visit("dark_error", options.target_dark_error);
 }
 
-/// A limit newer than the format: a report without it had none.
-constexpr const char* kNewerLimit = "eye_error";
+/// Limits newer than the format: a report without them had none.
+template <class Options, class Visit>
+void each_newer_limit(Options& options, const Visit& visit)
+{
+    visit("eye_error", options.target_quality.eye_error);
+    visit("visible_noise", options.target_quality.visible_noise);
+}
 
 /// Numbers as numbers, names as strings.
 Json json_of(const OptionInfo& option, const MethodOptions& method)
@@ -47,7 +52,7 @@ Json solver_settings(const SolverOptions& options)
     Json settings = {{"method", method.id}};
     const FieldWriter limits(settings["limits"]);
     each_limit(options, limits);
-    limits(kNewerLimit, options.target_eye_error);
+    each_newer_limit(options, limits);
     Json& own = settings["options"] = Json::object();
     for (const OptionInfo& option : method.options)
         own[option.name] = json_of(option, options.method);
@@ -76,8 +81,10 @@ SolverOptions solver_options_of(const JsonView& settings)
     const JsonView limits = settings.get("limits");
     const FieldReader limit(limits);
     each_limit(options, limit);
-    if (limits.find(kNewerLimit))
-        limit(kNewerLimit, options.target_eye_error);
+    each_newer_limit(options, [&](const char* name, double& value) {
+        if (limits.find(name))
+            limit(name, value);
+    });
     return options;
 }
 

@@ -24,8 +24,6 @@ public:
     virtual SolverState state() const = 0;
     /// Current H [N] [lx]. Waits for the device.
     virtual std::vector<glm::vec3> irradiance() = 0;
-    /// Of the light that irradiance() returns; unknown for most methods.
-    virtual VisibleNoise visible_noise() const { return {}; }
     /// Total GPU time per stage [ms].
     virtual const gpu::StageTimes& times() const = 0;
     /// Longest submission [ms].

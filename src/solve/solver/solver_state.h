@@ -13,8 +13,8 @@ struct VisibleNoise {
     static constexpr std::size_t kBands = 4;
     /// RMS of noise whose size is about 1.5, 3, 6 and 12 lumels
     std::array<double, kBands> bands{};
-    /// the largest band of the chart below which 95 % of the area is; < 0: unknown, or no chart is
-    /// large enough
+    /// the largest band of the chart below which 95 % of the charts are, by the roots of their
+    /// areas; < 0: unknown, or no chart is large enough
     double worst_chart = -1.0;
 };
 
@@ -29,9 +29,10 @@ struct SolverState {
     /// RMS of errors relative to the light that an eye adapts to at each lumel, see
     /// links/trace/adapted_light.h; < 0: unknown.
     double eye_error = -1.0;
-    bool full = false;   ///< memory is exhausted: further steps change nothing
-    bool ended = false;  ///< nothing is left to do: further steps change nothing
-    double begun = 0.0;  ///< progress to the first estimate, 0…1, if known
+    VisibleNoise visible_noise;  ///< only links
+    bool full = false;           ///< memory is exhausted: further steps change nothing
+    bool ended = false;          ///< nothing is left to do: further steps change nothing
+    double begun = 0.0;          ///< progress to the first estimate, 0…1, if known
 };
 
 }  // namespace lumel

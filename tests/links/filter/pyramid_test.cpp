@@ -109,6 +109,23 @@ TEST(Pyramid, EdgesOfDirectLightStay)
             EXPECT_NEAR(mean[chart.at(x, y)], edge(x, y), 0.3f);
 }
 
+TEST(Pyramid, ExactDirectLightBesideANoisyPenumbraStays)
+{
+    const FilterChart chart = flat_chart();
+    Solutions found = solutions_of(edge, 1.0f);
+    for (Estimates& of : found)
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 48; x < kSide; ++x)
+                of[chart.at(x, y)] = glm::vec3(edge(x, y));
+    const std::vector<float> mean = filtered(chart, found, rule_of_direct());
+    for (int x = 48; x < kSide; ++x) {
+        double squares = 0.0;
+        for (int y = 0; y < kSide; ++y)
+            squares += std::pow(double(mean[chart.at(x, y)] - edge(x, y)), 2.0) / double(kSide);
+        EXPECT_LT(std::sqrt(squares), x == 48 ? 0.5 : 0.04) << x;
+    }
+}
+
 class Wall : public testing::TestWithParam<int> {};
 
 // Within and between the cells of each level.

@@ -45,10 +45,10 @@ double left(double fine, double coarse)
 void expect_white(const ChartNoise& noise)
 {
     EXPECT_NEAR(noise.light, kLight, 1e-3);
-    EXPECT_NEAR(noise.power[0] / left(1, 2), 1.0, 0.05);
-    EXPECT_NEAR(noise.power[1] / left(2, 4), 1.0, 0.1);
-    EXPECT_NEAR(noise.power[2] / left(4, 8), 1.0, 0.2);
-    EXPECT_NEAR(noise.power[3] / left(8, 16), 1.0, 0.4);
+    EXPECT_NEAR(noise.power_in(0) / left(1, 2), 1.0, 0.05);
+    EXPECT_NEAR(noise.power_in(1) / left(2, 4), 1.0, 0.1);
+    EXPECT_NEAR(noise.power_in(2) / left(4, 8), 1.0, 0.2);
+    EXPECT_NEAR(noise.power_in(3) / left(8, 16), 1.0, 0.4);
 }
 
 const std::vector<float> kEven(kSide* kSide, kLight);
@@ -73,7 +73,7 @@ TEST(VisibleNoise, CountsWhatTheFilterBendsInAllEstimatesAlike)
     expect_white(chart_noise(square(), kEven, {&mean}));
     for (glm::vec3& bend : mean.bend)
         bend = {white(random), white(random), white(random)};
-    EXPECT_LT(chart_noise(square(), kEven, {&mean}).power[0], 0.05 * left(1, 2));
+    EXPECT_LT(chart_noise(square(), kEven, {&mean}).power_in(0), 0.05 * left(1, 2));
 }
 
 TEST(VisibleNoise, LeavesOutRimsAndWhatIsNearGeometry)
@@ -88,21 +88,27 @@ TEST(VisibleNoise, LeavesOutRimsAndWhatIsNearGeometry)
             if (is_rim || from_post <= 8)
                 mean.apart[chart.at(x, y)].x = (x + y) % 2 == 0 ? kLight : -kLight;
         }
-    EXPECT_EQ(chart_noise(chart, kEven, {&mean}).power[0], 0.0);
+    EXPECT_EQ(chart_noise(chart, kEven, {&mean}).power_in(0), 0.0);
     chart.is_blocked.assign(chart.is_blocked.size(), 0);
-    EXPECT_GT(chart_noise(chart, kEven, {&mean}).power[0], 0.0);
+    EXPECT_GT(chart_noise(chart, kEven, {&mean}).power_in(0), 0.0);
 }
 
-TEST(VisibleNoise, TheWorstChartIsTheOneBelowWhichMostOfTheAreaIs)
+TEST(VisibleNoise, TheWorstChartIsTheOneBelowWhichMostChartsAre)
 {
     const auto chart = [](std::size_t lumels, double light, double band) {
-        return ChartNoise{lumels, light, {band * band, 0.0, 0.0, 0.0}};
+        return ChartNoise{
+            std::vector<std::uint32_t>(lumels), light, {{band * band, 0.0, 0.0, 0.0}}};
     };
-    const VisibleNoise noise = visible_noise({chart(40, 1.0, 0.5), chart(800, 1.0, 0.01),
-                                              chart(160, 1.0, 0.02), chart(9000, 1e-6, 9.0)});
+    const VisibleNoise noise =
+        visible_noise(in_order({chart(4, 1.0, 0.5), chart(800, 1.0, 0.01), chart(160, 1.0, 0.02),
+                                chart(9000, 1e-6, 9.0), ChartNoise()}));
     EXPECT_NEAR(noise.worst_chart, 0.02, 1e-12);
-    EXPECT_NEAR(noise.bands[0], std::sqrt(0.04 * 0.25 + 0.8 * 1e-4 + 0.16 * 4e-4), 1e-12);
-    EXPECT_LT(visible_noise({ChartNoise()}).worst_chart, 0.0);
+    EXPECT_NEAR(noise.bands[0], std::sqrt((4 * 0.25 + 800 * 1e-4 + 160 * 4e-4) / 964), 1e-12);
+    EXPECT_LT(visible_noise({}).worst_chart, 0.0);
+    // A large ground does not hide rooms.
+    EXPECT_NEAR(
+        visible_noise(in_order({chart(10000, 1.0, 0.001), chart(400, 1.0, 0.03)})).worst_chart,
+        0.03, 1e-12);
 }
 
 }  // namespace

@@ -1,0 +1,151 @@
+// LinkRadiosity's errors: of the whole map, of dark lumels, as an eye sees it, and visible noise.
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/core/luminance.h"
+#include "links/direct/deviation.h"
+#include "links/trace/adapted_light.h"
+#include "links/trace/links.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels below this fraction of the mean are dark.
+constexpr double kDark = 1.0 / 3.0;
+
+}  // namespace
+
+/// Adds the error of direct light to that of rays.
+void LinkRadiosity::estimate()
+{
+    struct Sums {
+        SquaredError rays;
+        SquaredError direct;
+        double light = 0.0, count = 0.0;
+
+        /// √(Σ d² / 3n) / (Σ H / 3n), squared
+        double relative(double squares) const
+        {
+            return light > 0.0 ? 3.0 * count * squares / (light * light) : 0.0;
+        }
+        Errors errors() const { return {relative(rays.sum()), relative(direct.sum())}; }
+    };
+    direct_mean_ = filter() && parts_wanted_ != Parts::indirect
+                       ? filter()->direct(direct_->half(0), direct_->half(1))
+                       : plain_mean(direct_->half(0), direct_->half(1));
+    const auto add = [&](Sums& sums, std::size_t i, double light) {
+        if (parts_wanted_ != Parts::indirect)
+            sums.direct.add(direct_mean_, i);
+        if (!mean_.light.empty())
+            sums.rays.add(mean_, i);
+        sums.light += light;
+        sums.count += 1.0;
+    };
+    const auto visit = [&](const auto& what) {
+        for (std::size_t i = 0; i < work_.lumels().size(); ++i)
+            if (!work_.is_buried(i)) {
+                const glm::vec3 all = arrived(i);
+                what(i, double(all.r + all.g + all.b));
+            }
+    };
+    Sums all, dark;
+    visit([&](std::size_t i, double light) { add(all, i, light); });
+    mean_light_ = all.light / std::max(all.count, 1.0);
+    visit([&](std::size_t i, double light) {
+        if (light < kDark * mean_light_)
+            add(dark, i, light);
+    });
+    all_ = all.errors();
+    dark_ = dark.errors();
+    state_.error = std::sqrt(all_.rays + all_.direct);
+    eye_ = estimate_for_eye();
+    state_.dark_error = std::sqrt(dark_.rays + dark_.direct);
+    state_.eye_error = std::sqrt(eye_.rays + eye_.direct);
+    find_visible_noise();
+}
+
+LinkRadiosity::Errors LinkRadiosity::errors_in(const ChartNoise& chart, std::size_t band)
+{
+    return {chart.power[0][band], chart.power.size() > 1 ? chart.power[1][band] : 0.0};
+}
+
+/// Visible noise of the present estimate.
+void LinkRadiosity::find_visible_noise()
+{
+    if (mean_.light.empty())
+        return;
+    std::vector<float> light(work_.lumels().size());
+    for (std::size_t i = 0; i < light.size(); ++i)
+        light[i] = float(luminance(arrived(i)));
+    std::vector<const Mean*> means = {&mean_};
+    if (parts_wanted_ != Parts::indirect)
+        means.push_back(&direct_mean_);
+    noise_ = noise_of_charts(work_.scene, light, means);
+    state_.visible_noise = visible_noise(noise_);
+    visible_ = {};
+    if (!noise_.empty()) {
+        const ChartNoise& worst = noise_[worst_that_counts(noise_)];
+        visible_ = errors_in(worst, worst.worst_band());
+    }
+}
+
+/// Mean of squared errors relative to the light that an eye adapts to.
+LinkRadiosity::Errors LinkRadiosity::estimate_for_eye()
+{
+    std::vector<double> light(work_.lumels().size());
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const glm::vec3 all = arrived(i);
+        light[i] = double(all.r + all.g + all.b);
+    }
+    adapted_ = adapted_light(work_.scene.lumels, light);
+    SquaredError rays, direct;
+    double count = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        if (work_.is_buried(i))
+            continue;
+        count += 1.0;
+        if (!(adapted_[i] > 0.0))
+            continue;
+        // √(Σ d² / 3) / (Σ adapted / 3), squared
+        const double weight = 3.0 / (adapted_[i] * adapted_[i]);
+        if (parts_wanted_ != Parts::indirect)
+            direct.add(direct_mean_, i, weight);
+        if (!mean_.light.empty())
+            rays.add(mean_, i, weight);
+    }
+    return {rays.sum() / std::max(count, 1.0), direct.sum() / std::max(count, 1.0)};
+}
+
+/// Irradiance at a lumel, of the requested parts of light [lx].
+glm::vec3 LinkRadiosity::arrived(std::size_t i) const
+{
+    const glm::vec3 direct = parts_wanted_ == Parts::indirect ? glm::vec3(0.0f)
+                             : direct_mean_.light.empty()     ? direct_->mean(i)
+                                                              : direct_mean_.light[i];
+    return mean_.light.empty() ? direct : direct + mean_.light[i];
+}
+
+/// The square of one lumel is a rough estimate, so that of its neighbours counts too.
+std::vector<float> LinkRadiosity::error_estimate() const
+{
+    std::vector<float> error(work_.lumels().size(), 1.0f);
+    if (mean_.light.empty())
+        return error;
+    std::vector<double> square(error.size());
+    for (std::size_t i = 0; i < square.size(); ++i)
+        square[i] = double(mean_.noise[i]) +
+                    (parts_wanted_ == Parts::indirect ? 0.0 : double(direct_mean_.noise[i]));
+    const std::vector<double> deviation = deviation_nearby(square, work_.order, 1.0);
+    for (std::size_t i = 0; i < error.size(); ++i) {
+        const glm::vec3 all = arrived(i);
+        const double light = double(all.r + all.g + all.b);
+        // √(Σ d² / 3) / (Σ H / 3)
+        error[i] = work_.is_buried(i) || !(light > 0.0)
+                       ? 0.0f
+                       : float(std::min(std::sqrt(3.0) * deviation[i] / light, 1.0));
+    }
+    return error;
+}
+
+}  // namespace lumel

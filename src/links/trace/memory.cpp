@@ -1,0 +1,81 @@
+// LinkRadiosity's memory, planned before the start.
+
+#include <algorithm>
+
+#include "base/core/usage.h"
+#include "links/trace/links.h"
+
+namespace lumel {
+namespace {
+
+/// Rays per lumel in all solutions for an estimated error of 5 %: 24 in Cornell's box, 34 in
+/// Sponza, 74 in the town of scenes/town.py.
+constexpr double kLikelyRays = 64.0;
+/// [bytes] of a lumel per round and solution: number of its links.
+constexpr double kRowBytes = sizeof(std::uint16_t);
+/// Fraction of lumels with direct light per cell: maximum seen.
+constexpr double kVarying = 0.1;
+constexpr double kShareOfFree = 0.5;
+
+}  // namespace
+
+std::uint64_t free_bytes_for_links()
+{
+    return std::uint64_t(kShareOfFree * double(available_memory_bytes()));
+}
+
+std::uint64_t LinkRadiosity::first_bytes(std::size_t lumels, std::uint32_t even_rays)
+{
+    const double rays = even_rays > 0 ? double(even_rays) : double(kSolutions * kFirstRays);
+    return std::uint64_t(double(lumels) * (rays * kLinkBytes + kSolutions * kRowBytes));
+}
+
+std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shots)
+{
+    constexpr double kFirst = kSolutions * kFirstRays;
+    const double rays = shots > 0 ? std::min(double(shots), kLikelyRays) : kLikelyRays;
+    double rounds = 1.0;
+    for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinAdded)
+        ++rounds;
+    return std::uint64_t(double(lumels) * (rays * kLinkBytes + rounds * kSolutions * kRowBytes));
+}
+
+std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels)
+{
+    constexpr std::size_t kOfSources = 2 * sizeof(glm::vec3) + sizeof(std::uint32_t);
+    constexpr std::size_t kOfMean = 2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 2 * sizeof(float);
+    constexpr std::size_t kOfOrder = sizeof(std::uint32_t), kOfGroups = sizeof(std::uint32_t);
+    const std::size_t of_parts =
+        kSolutions * (kOfSources + sizeof(glm::vec3)) + kOfGroups + sizeof(glm::vec3);
+    const std::size_t of_lumels =
+        sizeof(WorldLumel) + kOfOrder + 2 * kOfMean + sizeof(std::uint16_t);
+    const auto varying = std::size_t(kVarying * double(lumels));
+    return lumels * (of_lumels + of_parts) + pieces * (sizeof(Piece) + sizeof(Facet)) +
+           Cells::bytes(lumels) + SubLumels::bytes(lumels, lumels) +
+           DirectEstimator::bytes(lumels, varying) + NearLumels::bytes(texels) +
+           ChartFilter::bytes(lumels, texels);
+}
+
+std::uint64_t LinkRadiosity::sweep_bytes(std::size_t lumels)
+{
+    const std::uint64_t sweep = lumels * 3 * sizeof(glm::vec4);
+    const std::uint64_t mean = lumels * (kSolutions * sizeof(glm::vec3) + sizeof(float)) +
+                               ChartFilter::working_bytes(lumels);
+    return std::max(sweep, mean);
+}
+
+/// Further rays per lumel and solution that fit in memory.
+double LinkRadiosity::rays_that_fit() const
+{
+    if (most_bytes_ == 0)
+        return kMaxLinks;
+    double taken = 0.0;
+    for (const std::optional<LinkTable>& links : links_)
+        taken += double(links->bytes());
+    const double of_ray =
+        state_.shots > 0 ? taken / double(state_.shots) : double(work_.order.size()) * kLinkBytes;
+    const double rows = kSolutions * double(work_.order.size()) * kRowBytes;
+    return std::max(double(most_bytes_) - taken - rows, 0.0) / (kSolutions * of_ray);
+}
+
+}  // namespace lumel

@@ -1,0 +1,215 @@
+// LinkRadiosity's rounds: what follows an estimate, until the errors asked for are reached.
+
+#include <algorithm>
+#include <cmath>
+
+#include "links/trace/links.h"
+
+namespace lumel {
+namespace {
+
+/// Maximum rays of a later round, relative to the rays so far.
+constexpr double kMaxAdded = 3.0;
+/// The same for charts, all rays. They aim below their target, so that they need one round.
+constexpr double kMostOfChart = 16.0, kAim = 0.8;
+/// Rays allocated by deviation reduce the variance like 1 / kAdaptiveGain as many uniform ones.
+constexpr double kAdaptiveGain = 0.6;
+/// Refines direct light if its variance is this multiple of its target; at most to kMinDirect × the
+/// present variance in one pass.
+constexpr double kTooUncertain = 1.25, kMinDirect = 1.0 / 16.0;
+/// A pass helped if its variance is below this multiple of that before.
+constexpr double kHelped = 0.9;
+/// Cost of a link relative to a shadow ray, sweeps and filter included.
+constexpr double kCostOfLink = 1.5;
+/// Variance of rays after a round that adds kMaxAdded, relative to that before.
+constexpr double kNextRound = 1.0 / (1.0 + kMaxAdded);
+/// Bounds on the fraction of the target variance that direct light may have.
+constexpr double kMinShare = 0.1, kMaxShare = 0.6;
+/// What sweeps may leave out, relative to each sub-lumel's light: at least this, and this fraction
+/// of a target error.
+constexpr double kResidual = 1e-3, kResidualOfTarget = 0.05;
+}  // namespace
+
+/// Target errors, with current values.
+std::vector<LinkRadiosity::Wanted> LinkRadiosity::wanted() const
+{
+    std::vector<Wanted> result;
+    if (target_error_ > 0.0)
+        result.push_back({target_error_, all_});
+    if (target_dark_error_ > 0.0)
+        result.push_back({target_dark_error_, dark_});
+    if (target_eye_error_ > 0.0)
+        result.push_back({target_eye_error_, eye_});
+    if (target_visible_noise_ > 0.0)
+        result.push_back({target_visible_noise_, visible_, true});
+    return result;
+}
+
+/// Starts the next stage: refines direct light, or adds links.
+void LinkRadiosity::go_on()
+{
+    const std::vector<Wanted> all = wanted();
+    const bool reached = std::ranges::all_of(all, &Wanted::is_reached);
+    const bool is_even = options_.even_rays > 0;
+    if ((reached && !all.empty()) || is_even) {
+        state_.ended = is_even;
+        stage_ = Stage::direct;  // without work
+        return;
+    }
+    if (refine_direct())
+        stage_ = Stage::direct;
+    else if (stored_ && then_ == Then::end)
+        state_.ended = true;
+    else
+        begin_round();
+}
+
+/// Fraction of the target variance for direct light. For variances that fall as 1 / rays, the total
+/// cost is minimal if they are in proportion to √(variance × cost).
+double LinkRadiosity::share_of_direct(const Errors& now) const
+{
+    const double of_rays = kCostOfLink * now.rays * double(state_.shots * work_.order.size());
+    const double of_direct = now.direct * double(direct_->rays());
+    const double root = std::sqrt(of_direct), sum = root + std::sqrt(of_rays);
+    return sum > 0.0 ? std::clamp(root / sum, kMinShare, kMaxShare) : kMaxShare;
+}
+
+/// Schedules refinement of direct light if its noise dominates: beside that of the rays after the
+/// next round, as long as they are above the target; and as long as it helps.
+bool LinkRadiosity::refine_direct()
+{
+    std::vector<Wanted> all = wanted();
+    if (all.empty())
+        all.push_back({std::sqrt(all_.rays + all_.direct), all_});
+    double share = 1.0;
+    const Wanted* tightest = nullptr;
+    for (const Wanted& one : all) {
+        const double most =
+            share_of_direct(one.now) * std::max(one.error * one.error, kNextRound * one.now.rays);
+        const double left = std::max(most / one.now.direct, kMinDirect);
+        const double before = refined_[one.is_visible ? 1 : 0];
+        const bool helps = before == 0.0 || one.now.direct < kHelped * before;
+        if (one.now.direct > kTooUncertain * most && left < share && helps) {
+            share = left;
+            tightest = &one;
+        }
+    }
+    if (!tightest)
+        return false;
+    refined_[tightest->is_visible ? 1 : 0] = tightest->now.direct;
+    // By the variance that the filter leaves, as rays are allocated.
+    std::vector<double> weight = tightest->is_visible ? chart_weights() : weights();
+    if (const ChartFilter* const by = filter()) {
+        const Mean plain = plain_mean(direct_->half(0), direct_->half(1));
+        const std::vector<double> left =
+            by->variance_left({plain.noise.begin(), plain.noise.end()},
+                              {direct_mean_.noise.begin(), direct_mean_.noise.end()});
+        for (std::size_t i = 0; i < weight.size(); ++i)
+            weight[i] *= left[i];
+    }
+    return direct_->refine(share, state_.shots * work_.order.size(), weight);
+}
+
+/// Starts a round with the rays that the target error requires, within limits.
+void LinkRadiosity::begin_round()
+{
+    if (has_known_round()) {
+        begin_known_round();
+        return;
+    }
+    const double fit = rays_that_fit();
+    double most = options_.even_rays > 0 ? double(kMaxLinks) : std::max(fit, double(kFirstRays));
+    if (most_shots_ > state_.shots)
+        most = std::min(most, double(most_shots_ - state_.shots) / double(kSolutions));
+    if (state_.shots == 0) {
+        send_first_rays(most);
+    } else {
+        state_.full = fit < kMinAdded * double(state_.shots) / double(kSolutions);
+        if (!state_.full)
+            share_out_rays(most);
+        state_.ended = !state_.full && !(mean_rays_ > 0.0);
+        if (state_.full || state_.ended) {
+            stage_ = Stage::direct;  // without work
+            return;
+        }
+        leave_sealed_space();
+    }
+    refined_ = {};
+    filter_.reset();
+    begin_links();
+}
+
+/// [P] 1 for sub-lumels that send light or receive some.
+std::vector<char> LinkRadiosity::lit_parts() const
+{
+    std::vector<char> lit(parts_->count(), 0);
+    for (std::uint32_t p = 0; p < lit.size(); ++p) {
+        lit[p] = work_.lumels()[parts_->lumel(p)].emission != glm::vec3(0.0f);
+        for (const std::vector<glm::vec3>& received : received_)
+            lit[p] |= received[p] != glm::vec3(0.0f);
+    }
+    for (std::size_t i = 0; i < work_.lumels().size(); ++i)
+        for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
+            if (direct_->at(i, c) != glm::vec3(0.0f))
+                lit[parts_->part(i, c)] = 1;
+    return lit;
+}
+
+/// Lumels that no light can reach send no more rays: as long as no link, theirs or one to them,
+/// joins them with light.
+void LinkRadiosity::leave_sealed_space()
+{
+    const std::vector<char> lit = lit_parts();
+    if (std::find(lit.begin(), lit.end(), 0) == lit.end())
+        return;
+    for (std::size_t k = 0; k < kSolutions; ++k)
+        sealed_->join(*links_[k], k);
+    const std::vector<char> sealed = sealed_->sealed(lit);
+    for (std::size_t i = 0; i < sealed.size(); ++i)
+        if (sealed[i])
+            rays_[i] = 0;
+}
+
+/// Further rays per lumel and solution for the target errors, except that of visible noise.
+double LinkRadiosity::more_rays() const
+{
+    const double so_far = double(state_.shots) / double(kSolutions);
+    const std::vector<Wanted> all = wanted();
+    if (all.empty())
+        return std::min(so_far, double(kMaxLinks));
+    double ratio = 0.0;
+    for (const Wanted& one : all)
+        if (!one.is_visible && !one.is_reached()) {
+            const double square = one.error * one.error;
+            const double left = square - std::min(one.now.direct, kMaxShare * square);
+            ratio = std::max(ratio, one.now.rays / left);
+        }
+    if (!(ratio > 0.0))
+        return 0.0;
+    const double more = kAdaptiveGain * so_far * (ratio - 1.0);
+    return std::min(std::clamp(more, kMinAdded * so_far, kMaxAdded * so_far), double(kMaxLinks));
+}
+
+/// All rays of a chart for its visible noise, relative to those so far; 1 if rays are not what it
+/// lacks.
+double LinkRadiosity::rays_for(const ChartNoise& chart) const
+{
+    const double square = kAim * target_visible_noise_ * target_visible_noise_;
+    double ratio = 0.0;
+    for (std::size_t band = 0; band < VisibleNoise::kBands; ++band) {
+        const Errors now = errors_in(chart, band);
+        ratio = std::max(ratio, now.rays / (square - std::min(now.direct, kMaxShare * square)));
+    }
+    return ratio > 1.0 ? std::clamp(ratio, 1.0 + kMinAdded, kMostOfChart) : 1.0;
+}
+
+/// What sweeps leave out, relative to each sub-lumel's light: little beside the target errors.
+double LinkRadiosity::sweep_residual() const
+{
+    double target = 0.0;
+    for (const Wanted& one : wanted())
+        target = target > 0.0 ? std::min(target, one.error) : one.error;
+    return std::max(kResidual, kResidualOfTarget * target);
+}
+
+}  // namespace lumel
