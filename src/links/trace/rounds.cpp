@@ -79,8 +79,8 @@ double LinkRadiosity::share_of_direct(const Errors& now) const
 bool LinkRadiosity::refine_direct()
 {
     std::vector<Wanted> all = wanted();
-    if (all.empty())
-        all.push_back({std::sqrt(all_.rays + all_.direct), all_});
+    // Beside the rays, whatever is asked for: few lumels near a lamp can hold most of the noise.
+    all.push_back({std::sqrt(all_.rays), all_});
     double share = 1.0;
     const Wanted* tightest = nullptr;
     for (const Wanted& one : all) {
