@@ -54,6 +54,19 @@ TEST(Advice, IsSilentOnUsualScenes)
     EXPECT_EQ(advice_on(tables(3.0f)), Sentences());
 }
 
+TEST(Advice, SaysWhereItIsNoisy)
+{
+    Scene scene = tables(3.0f);
+    expect_one({where_it_is_noisy(scene, {{1, 0.022}, {0, 0.0113}})},
+               {"\"table\" (2.2 %), \"ground\" (1.1 %)"});
+    expect_one({where_it_is_noisy(scene, {{0, 0.04}, {1, 0.03}, {2, 0.02}, {3, 0.01}})},
+               {"(4.0 %)", "(2.0 %) and 1 more"});
+    for (Instance& instance : scene.instances)
+        instance.name.clear();
+    EXPECT_EQ(where_it_is_noisy(scene, {{0, 0.04}}), "");
+    EXPECT_EQ(where_it_is_noisy(scene, {}), "");
+}
+
 TEST(Advice, NamesAGroundThatTakesTheLumels)
 {
     const Scene scene = tables(10.0f);

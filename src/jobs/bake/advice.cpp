@@ -14,6 +14,8 @@ namespace {
 constexpr double kMuch = 0.6, kManyBacks = 0.4;
 /// Scenes of fewer objects get no advice on them.
 constexpr std::size_t kFewObjects = 4;
+/// Names in one sentence.
+constexpr std::size_t kMostNames = 3;
 /// A clear sky gives about a tenth of the sun's light, a hazy one more.
 constexpr double kDarkSky = 0.02;
 
@@ -82,6 +84,25 @@ std::vector<std::string> advice(const SolveScene& prepared, const AtlasOptions& 
                                        of_daylight(prepared.scene)};
     std::erase(sentences, std::string());
     return sentences;
+}
+
+std::string where_it_is_noisy(const Scene& scene, const std::vector<NoisySurface>& surfaces)
+{
+    std::string names;
+    std::size_t named = 0;
+    for (const NoisySurface& surface : surfaces) {
+        const std::string& name = scene.instances[surface.instance].name;
+        if (named == kMostNames || name.empty())
+            continue;
+        names +=
+            fmt::format("{}\"{}\" ({:.1f} %)", named > 0 ? ", " : "", name, 100.0 * surface.noise);
+        ++named;
+    }
+    if (named == 0)
+        return {};
+    if (surfaces.size() > named)
+        names += fmt::format(" and {} more", surfaces.size() - named);
+    return "noise may still be seen on " + names;
 }
 
 }  // namespace lumel

@@ -90,6 +90,20 @@ void LinkRadiosity::find_visible_noise()
     }
 }
 
+std::vector<NoisySurface> LinkRadiosity::noisy_surfaces() const
+{
+    std::vector<NoisySurface> surfaces;
+    for (auto chart = noise_.rbegin(); chart != noise_.rend(); ++chart) {
+        const double noise = std::sqrt(chart->power_in(chart->worst_band()));
+        const std::uint32_t instance = work_.lumels()[chart->lumels.front()].instance;
+        const bool is_known =
+            std::ranges::find(surfaces, instance, &NoisySurface::instance) != surfaces.end();
+        if (target_visible_noise_ > 0.0 && noise > target_visible_noise_ && !is_known)
+            surfaces.push_back({instance, noise});
+    }
+    return surfaces;
+}
+
 /// Mean of squared errors relative to the light that an eye adapts to.
 LinkRadiosity::Errors LinkRadiosity::estimate_for_eye()
 {

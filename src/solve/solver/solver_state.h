@@ -18,6 +18,12 @@ struct VisibleNoise {
     double worst_chart = -1.0;
 };
 
+/// An instance whose light is noisier than asked for.
+struct NoisySurface {
+    std::uint32_t instance;
+    double noise;  ///< largest band of its worst chart
+};
+
 /// As last read back from the device.
 struct SolverState {
     std::uint64_t shots = 0;       ///< shooters, or the unit that MethodInfo::shots names
