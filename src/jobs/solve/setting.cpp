@@ -155,22 +155,22 @@ void tell_missed(const SolverOptions& options, const SolverState& state, Stages&
     if (state.shots == 0 || options.has_default_limits() ||
         (options.max_shots == 0 && options.max_seconds <= 0.0))
         return;
-    const auto tell = [&](double reached, double wanted, const char* of) {
+    const auto tell = [&](double reached, double wanted, const char* what) {
         if (wanted <= 0.0 || (reached >= 0.0 && reached <= wanted))
             return;
         stages.warn(reached >= 0.0
-                        ? fmt::format("the estimated error{} is {}, not the {:g} % asked for: "
+                        ? fmt::format("the estimated {} is {}, not the {:g} % asked for: "
                                       "the limit of shots or time was reached first",
-                                      of, percent_text(reached), 100.0 * wanted)
-                        : fmt::format("the limit of shots or time was reached before the error{} "
+                                      what, percent_text(reached), 100.0 * wanted)
+                        : fmt::format("the limit of shots or time was reached before the {} "
                                       "could be estimated; {:g} % was asked for",
-                                      of, 100.0 * wanted));
+                                      what, 100.0 * wanted));
     };
-    tell(state.error, options.target_error, "");
-    tell(state.dark_error, options.target_dark_error, " of dark lumels");
-    tell(state.eye_error, options.target_quality.eye_error, " relative to the light around");
+    tell(state.error, options.target_error, "error");
+    tell(state.dark_error, options.target_dark_error, "error of dark lumels");
+    tell(state.eye_error, options.target_quality.eye_error, "error relative to the light around");
     tell(std::max(state.visible_noise.worst_chart, 0.0), options.target_quality.visible_noise,
-         " of visible noise");
+         "visible noise");
 }
 
 SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stages,

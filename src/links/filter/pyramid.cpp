@@ -13,9 +13,9 @@ constexpr std::array<float, 2> kCautionDirect = {1.0f, 0.5f};
 constexpr float kLeastDetail = 0.05f, kMostDetail = 4.0f;
 /// Deviation of the window over which gains are averaged [cells]; of the finest level.
 constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
-/// The same of the window for local noise [cells].
-constexpr float kNoiseSpread = 1.0f;
-constexpr float kLocalCaution = 3.0f;
+/// Deviation of the window for local noise [cells], and the multiple of that noise above which a
+/// detail is taken for light.
+constexpr float kNoiseSpread = 1.0f, kLocalCaution = 3.0f;
 /// Radius of the window in deviations.
 constexpr float kGainRadius = 2.5f;
 
@@ -98,7 +98,7 @@ void blur(std::vector<Moments>& cells, int width, int height, float spread)
     blur(cells, across, down, 1, across, bell);
 }
 
-/// next: averages over the next cells.
+/// next: sums over the window for local noise.
 float gain_of(const Moments& sums, const Moments& next, const PyramidRule& rule, float caution)
 {
     float signal = std::max(sums.signal - caution * sums.noise(), 0.0f), noise = sums.noise();

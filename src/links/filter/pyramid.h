@@ -22,8 +22,8 @@ struct PyramidRule {
     std::span<const float> caution;
     /// Bounds the signal by the harmonic mean distance of ray hits [WH92].
     bool is_bounded;
-    /// Takes the noise from few cells: lumels that see all of a light, or nothing, are exact beside
-    /// those of its penumbra.
+    /// Averages noise over few cells: beside a noisy penumbra, lumels that see all of the light or
+    /// none of it are exact.
     bool has_local_noise;
 };
 

@@ -16,9 +16,8 @@ constexpr int kFromRim = 3, kFromGeometry = 8;
 constexpr float kOpen = 0.999f;
 /// Minimum number of such lumels of a chart: fewer do not show a pattern.
 constexpr std::size_t kFewest = 400;
-/// Minimum light that noise is relative to, as a fraction of the chart's mean; it is the mean over
-/// a Gaussian of deviation kSurroundings [lumels].
-constexpr float kFaintestAround = 0.02f, kSurroundings = 2.0f;
+/// Noise is relative to the mean light over a Gaussian of this deviation [lumels].
+constexpr float kSurroundings = 2.0f;
 /// Charts below this fraction of the brightest are black.
 constexpr double kBlack = 1e-4;
 /// The worst chart that counts is the one below which this fraction of charts is.

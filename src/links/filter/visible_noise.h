@@ -12,6 +12,9 @@
 
 namespace lumel {
 
+/// Minimum light that noise is relative to, as a fraction of the chart's mean.
+inline constexpr float kFaintestAround = 0.02f;
+
 /// Lumels of one side of a chart in a grid of texels, row by row.
 struct NoiseChart {
     int width = 0, height = 0;

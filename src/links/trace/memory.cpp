@@ -44,11 +44,12 @@ std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, 
 {
     constexpr std::size_t kOfSources = 2 * sizeof(glm::vec3) + sizeof(std::uint32_t);
     constexpr std::size_t kOfMean = 2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 2 * sizeof(float);
-    constexpr std::size_t kOfOrder = sizeof(std::uint32_t), kOfGroups = sizeof(std::uint32_t);
+    constexpr std::size_t kOfOrder = sizeof(std::uint32_t), kOfGroups = sizeof(std::uint32_t),
+                          kOfNoise = sizeof(std::uint32_t);
     const std::size_t of_parts =
         kSolutions * (kOfSources + sizeof(glm::vec3)) + kOfGroups + sizeof(glm::vec3);
     const std::size_t of_lumels =
-        sizeof(WorldLumel) + kOfOrder + 2 * kOfMean + sizeof(std::uint16_t);
+        sizeof(WorldLumel) + kOfOrder + kOfNoise + 2 * kOfMean + sizeof(std::uint16_t);
     const auto varying = std::size_t(kVarying * double(lumels));
     return lumels * (of_lumels + of_parts) + pieces * (sizeof(Piece) + sizeof(Facet)) +
            Cells::bytes(lumels) + SubLumels::bytes(lumels, lumels) +

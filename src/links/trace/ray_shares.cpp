@@ -16,8 +16,8 @@ constexpr double kEvenShare = 0.25;
 constexpr std::uint16_t kFirstOfCut = 32;
 /// Bisection steps for the rays that all lumels add.
 constexpr int kFillSteps = 24;
-/// Minimum brightness in ray allocation, relative to the mean, and to that of the chart.
-constexpr double kDarkest = 1e-2, kDarkestOfChart = 0.02;
+/// Minimum brightness in ray allocation, relative to the mean.
+constexpr double kDarkest = 1e-2;
 
 /// The scale at which sum(scale) reaches `wanted`. sum: increasing, without bound. start: above 0.
 template <class Sum>
@@ -73,7 +73,7 @@ std::vector<double> LinkRadiosity::chart_weights() const
         const double power = chart.power_in(chart.worst_band());
         for (const std::uint32_t i : chart.lumels) {
             const double light =
-                std::max(double(luminance(arrived(i))), kDarkestOfChart * chart.light);
+                std::max(double(luminance(arrived(i))), double(kFaintestAround) * chart.light);
             weight[i] = power / (light * light);
         }
     }

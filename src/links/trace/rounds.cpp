@@ -25,8 +25,8 @@ constexpr double kCostOfLink = 1.5;
 constexpr double kNextRound = 1.0 / (1.0 + kMaxAdded);
 /// Bounds on the fraction of the target variance that direct light may have.
 constexpr double kMinShare = 0.1, kMaxShare = 0.6;
-/// What sweeps may leave out, relative to each sub-lumel's light: at least this, and this fraction
-/// of a target error.
+/// Residual at which sweeps stop, relative to each sub-lumel's light: this fraction of the smallest
+/// target error, but at least kResidual.
 constexpr double kResidual = 1e-3, kResidualOfTarget = 0.05;
 }  // namespace
 
@@ -203,7 +203,7 @@ double LinkRadiosity::rays_for(const ChartNoise& chart) const
     return ratio > 1.0 ? std::clamp(ratio, 1.0 + kMinAdded, kMostOfChart) : 1.0;
 }
 
-/// What sweeps leave out, relative to each sub-lumel's light: little beside the target errors.
+/// Residual at which sweeps stop, relative to each sub-lumel's light: far below the target errors.
 double LinkRadiosity::sweep_residual() const
 {
     double target = 0.0;

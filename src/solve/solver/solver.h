@@ -24,7 +24,8 @@ public:
     virtual SolverState state() const = 0;
     /// Current H [N] [lx]. Waits for the device.
     virtual std::vector<glm::vec3> irradiance() = 0;
-    /// What exceeds the target for visible noise, noisiest first. Only links can tell.
+    /// Instances whose visible noise is above the target, noisiest first; empty for methods that do
+    /// not estimate it.
     virtual std::vector<NoisySurface> noisy_surfaces() const { return {}; }
     /// Total GPU time per stage [ms].
     virtual const gpu::StageTimes& times() const = 0;
