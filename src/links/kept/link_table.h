@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "atlas/cells/cells.h"
+#include "links/kept/ray_guide.h"
 
 namespace lumel {
 
@@ -87,12 +88,14 @@ struct LinkBlock {
     std::vector<LinkEnd> ends;        ///< [slots]
     std::vector<std::uint8_t> from;   ///< cells that the rays of cut lumels leave, in order
     std::vector<NearLink> near;       ///< by slot
-    std::uint64_t traced = 0;         ///< rays; the ends of others were known
+    /// [slots] Chances of the directions, see RayGuide; empty: all are even.
+    std::vector<std::uint16_t> chances;
+    std::uint64_t traced = 0;  ///< rays; the ends of others were known
 
     template <class Archive>
     void state(Archive& archive)
     {
-        archive(rays, ends, from, near, traced);
+        archive(rays, ends, from, near, chances, traced);
     }
 };
 
@@ -105,6 +108,10 @@ struct LinkRow {
     std::span<const LinkEnd> ends;
     const std::uint8_t* from;  ///< [ends] cells, or null for lumels that are not cut
     std::span<const NearLink> near;
+    const std::uint16_t* chances;  ///< [ends] or null: all even
+
+    /// Weight of ray k, as which its light counts; 1 on average.
+    float weight(std::size_t k) const { return chances ? RayGuide::weight(chances[k]) : 1.0f; }
 
     /// Number of the sub-lumel, in its lumel, that ray k leaves.
     std::uint32_t leaves(const SubLumels& parts, std::size_t lumel, std::size_t k) const
@@ -121,7 +128,9 @@ public:
     LinkRow next(bool is_cut)
     {
         const std::size_t rays = block_->rays[lumel_++];
-        LinkRow row{slot_, {block_->ends.data() + slot_, rays}, nullptr, {}};
+        LinkRow row{slot_, {block_->ends.data() + slot_, rays}, nullptr, {}, nullptr};
+        if (!block_->chances.empty())
+            row.chances = block_->chances.data() + slot_;
         if (is_cut) {
             row.from = block_->from.data() + from_;
             from_ += std::uint32_t(rays);

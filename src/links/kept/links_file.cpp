@@ -34,8 +34,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
-// 5: origins that see no cell of their lumel, and one set of shared directions
-constexpr std::uint64_t kVersion = 5;
+// 6: guided rays
+constexpr std::uint64_t kVersion = 6;
 constexpr std::uint32_t kMaxSide = 65536;  ///< side of an atlas [texels]
 constexpr std::uint32_t kWord = 64;        ///< [bits]
 
@@ -108,7 +108,7 @@ void contents(Archive& archive, StoredLinks& kept, Words& links)
 {
     archive(kept.scene_hash, kept.seed, kept.shared_directions, kept.ray_offset, kept.side,
             kept.texels_per_metre, kept.charts, kept.shows_front, kept.back_shift, kept.sheets,
-            kept.instances, kept.boxes, kept.lumels, kept.rounds, links);
+            kept.instances, kept.boxes, kept.lumels, kept.guide, kept.rounds, links);
 }
 
 bool is_in(const glm::vec2& place, std::uint32_t side)
@@ -146,6 +146,7 @@ bool is_sound(const StoredLinks& kept, const Words& links)
            kept.side <= kMaxSide && std::isfinite(kept.texels_per_metre) &&
            kept.charts <= triangles && kept.boxes.size() == kept.instances.size() &&
            LinkNumbers::fit(kept.instances.size(), kept.lumels.size()) &&
+           kept.guide.fits(kept.lumels.size()) &&
            std::all_of(kept.rounds.begin(), kept.rounds.end(),
                        [&](const StoredLinks::Round& round) { return is_sound(round, kept); }) &&
            (kept.back_shift.empty() || kept.back_shift.size() == kept.charts) &&

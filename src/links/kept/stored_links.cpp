@@ -94,9 +94,14 @@ StoredLinks renumbered(const StoredLinks& kept, const Renumbering& now)
         } else {
             result.gone.push_back(kept.boxes[i]);
         }
+    if (!kept.guide.empty())
+        result.guide = {std::vector<std::uint32_t>(now.lumels_now, 0), kept.guide.chances};
     for (std::size_t i = 0; i < now.lumels.size(); ++i)
-        if (now.lumels[i] != Renumbering::kNotThere)
-            result.lumels[now.lumels[i]] = kept.lumels[i];
+        if (const std::uint32_t to = now.lumels[i]; to != Renumbering::kNotThere) {
+            result.lumels[to] = kept.lumels[i];
+            if (!kept.guide.empty())
+                result.guide.group[to] = kept.guide.group[i];
+        }
     const std::vector<std::uint32_t> numbers = numbers_now(kept, now);
     for (const StoredLinks::Round& round : kept.rounds)
         result.rounds.push_back(renumbered(round, now, numbers));

@@ -41,6 +41,7 @@ struct StoredLinks {
     std::vector<std::uint64_t> lumels;     ///< [N] lumel_hashes()
     std::vector<std::uint64_t> instances;  ///< [I] instance_hashes()
     std::vector<Box> boxes;                ///< [I] bounds of the instances [m]
+    RayGuide guide;                        ///< of the rounds after the first
     std::vector<Round> rounds;
     std::vector<Box> gone;   ///< bounds of removed instances; never in a file
     bool reordered = false;  ///< instances have other numbers than in the file

@@ -5,7 +5,7 @@
 
 #include "base/core/luminance.h"
 #include "links/direct/deviation.h"
-#include "links/trace/adapted_light.h"
+#include "links/filter/adapted_light.h"
 #include "links/trace/links.h"
 
 namespace lumel {

@@ -24,8 +24,8 @@
 #include "base/core/state_bytes.h"
 #include "base/core/usage.h"
 #include "links/direct/deviation.h"
+#include "links/filter/adapted_light.h"
 #include "links/filter/visible_noise.h"
-#include "links/trace/adapted_light.h"
 #include "links/trace/link_casters.h"
 #include "links/trace/shared_directions.h"
 #include "rays/paths/samples.h"
@@ -132,9 +132,9 @@ template <class Archive>
 void LinkRadiosity::state(Archive& archive)
 {
     archive(*direct_, direct_mean_.light, direct_mean_.noise, direct_mean_.wrong,
-            direct_mean_.apart, direct_mean_.bend, round_, mean_rays_, means_, rays_, traced_,
-            mean_.light, mean_.noise, mean_.wrong, mean_.apart, mean_.bend, mean_light_, adapted_,
-            all_, dark_, eye_, refined_, state_, times_);
+            direct_mean_.apart, direct_mean_.bend, round_, mean_rays_, means_, rays_, guide_,
+            traced_, mean_.light, mean_.noise, mean_.wrong, mean_.apart, mean_.bend, mean_light_,
+            adapted_, all_, dark_, eye_, refined_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
         archive(*links_[k], sources_[k].rays, received_[k]);
 }
@@ -177,7 +177,7 @@ bool LinkRadiosity::is_consistent() const
                 is(mean_.light.size(), lumels) && is(mean_.noise.size(), lumels) &&
                 is(mean_.wrong.size(), lumels) && is(mean_.apart.size(), lumels) &&
                 is(mean_.bend.size(), lumels) && is(adapted_.size(), lumels) &&
-                traced_ <= tracer_->blocks() && means_.size() == round_ &&
+                traced_ <= tracer_->blocks() && means_.size() == round_ && guide_.fits(lumels) &&
                 (state_.shots > 0) == !mean_.light.empty() &&
                 (!is_tracing || (mean_rays_ > 0.0 && rays_.size() == lumels)) &&
                 (stage_ != Stage::solve || traced_ == tracer_->blocks());
@@ -236,7 +236,7 @@ void LinkRadiosity::trace()
             shared.emplace(
                 mean_rays_,
                 PathSamples::hash(PathSamples::hash(options_.seed, kSharedStream), stream));
-        LinkTracer::Sending sending{rays_, stream, shared ? &*shared : nullptr};
+        LinkTracer::Sending sending{rays_, stream, shared ? &*shared : nullptr, guide_in(round_)};
         if (has_known_round())
             sending.known.emplace(
                 LinkTracer::Known{changes_, stored_->rounds[round_], first_rays_, k});
@@ -318,13 +318,13 @@ void LinkRadiosity::balance(std::size_t k)
 glm::vec3 LinkRadiosity::brought(std::size_t i, std::size_t k) const
 {
     glm::vec3 sky(0.0f);
-    std::uint32_t rays = 0;
+    float rays = 0.0f;
     for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
         rays += sources_[k].rays[p];
         sky += links_[k]->sky[p];
     }
-    if (rays > 0)
-        sky /= float(rays);
+    if (rays > 0.0f)
+        sky /= rays;
     switch (parts_wanted_) {
     case Parts::all:
         return indirect(i, k);
@@ -340,12 +340,12 @@ glm::vec3 LinkRadiosity::brought(std::size_t i, std::size_t k) const
 glm::vec3 LinkRadiosity::indirect(std::size_t i, std::size_t k) const
 {
     glm::vec3 sum(0.0f);
-    std::uint32_t rays = 0;
+    float rays = 0.0f;
     for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
         rays += sources_[k].rays[p];
-        sum += float(sources_[k].rays[p]) * received_[k][p];
+        sum += sources_[k].rays[p] * received_[k][p];
     }
-    return rays > 0 ? sum / float(rays) : glm::vec3(0.0f);
+    return rays > 0.0f ? sum / rays : glm::vec3(0.0f);
 }
 
 /// The filter for the present links; null: none.

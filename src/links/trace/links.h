@@ -10,6 +10,7 @@
 #include "links/filter/filter.h"
 #include "links/filter/visible_noise.h"
 #include "links/kept/link_changes.h"
+#include "links/kept/ray_guide.h"
 #include "links/trace/links_options.h"
 #include "links/trace/sealed_space.h"
 #include "links/trace/sweeps.h"
@@ -126,6 +127,16 @@ private:
     void begin_round();
     void begin_known_round();
     void begin_links();
+    bool can_guide() const;
+    struct SentLight;
+    struct LearntGroup;
+    SentLight light_sent(std::size_t solution) const;
+    void add_moments(std::uint32_t lumel, std::uint32_t solution, const LinkRow& row,
+                     const SentLight& sent, GuideMoments& moments) const;
+    std::vector<LearntGroup> learn_block(std::size_t block,
+                                         const std::array<SentLight, kSolutions>& sent) const;
+    void learn_guide();
+    const RayGuide* guide_in(std::uint32_t round) const;
     bool has_known_round() const;
     StoredLinks::Round stored_round(std::size_t round, const LinkNumbers& stored) const;
     bool shares_directions() const;
@@ -133,8 +144,11 @@ private:
     std::vector<double> deviation_of_ray(const std::vector<double>& sent,
                                          const std::vector<double>& weight);
     void send_first_rays(double most);
-    std::vector<double> rays_by_deviation(double mean, const std::vector<double>& sent);
-    void add_rays_of_charts(const std::vector<double>& sent, std::vector<double>& rays);
+    std::vector<double> gain_of_guide(const std::vector<double>& sent) const;
+    std::vector<double> rays_by_deviation(double mean, const std::vector<double>& sent,
+                                          const std::vector<double>& gain);
+    void add_rays_of_charts(const std::vector<double>& sent, const std::vector<double>& gain,
+                            std::vector<double>& rays);
     void share_out_rays(double most);
     double rays_for(const ChartNoise& chart) const;
     static Errors errors_in(const ChartNoise& chart, std::size_t band);
@@ -191,6 +205,7 @@ private:
     double mean_rays_ = 0.0;           ///< per lumel in the round, in each solution
     std::vector<double> means_;        ///< of all rounds that ended
     std::vector<std::uint16_t> rays_;  ///< [N] rays of each lumel in the round, in each solution
+    RayGuide guide_;                   ///< learnt from the first round, for the others
     std::size_t traced_ = 0;           ///< blocks of the round
     double mean_light_ = 0.0;          ///< summed over channels [lx]
     std::vector<double> adapted_;      ///< [N] adapted_light() of the present estimate

@@ -6,7 +6,7 @@
 
 namespace lumel {
 
-inline constexpr OptionWord kFilterSwitch[] = {{"on", true}, {"off", false}};
+inline constexpr OptionWord kLinksSwitch[] = {{"on", true}, {"off", false}};
 inline constexpr OptionWord kRayCasters[] = {{"auto", Rays::automatic},
                                              {"host", Rays::host},
                                              {"query", Rays::query},
@@ -18,8 +18,13 @@ inline constexpr OptionInfo kLinksOptions[] = {
     {.name = "filter",
      .help = "Smooth light over charts where it is noise; without it the result is noisier, but "
              "exact in expectation",
-     .words = kFilterSwitch,
+     .words = kLinksSwitch,
      .member = member<&LinksOptions::filter>},
+    {.name = "guide",
+     .help = "Send more rays to where those of the first round found most of the light, as through "
+             "a door or window",
+     .words = kLinksSwitch,
+     .member = member<&LinksOptions::guide>},
     {.name = "rays",
      .help = "Ray tracing by the CPU (host), by ray queries of the GPU (query, VK_KHR_ray_query), "
              "or by rasterisation on the GPU for rays that leave lumels (raster); auto: host if "

@@ -19,6 +19,7 @@ struct LinksOptions {
     std::uint32_t seed = 1;
     SampleRule rule = SampleRule::area;
     bool filter = true;  ///< averages similar lumels of a chart
+    bool guide = true;   ///< rays after the first round follow the light
     Rays rays = Rays::automatic;
     /// All lumels draw their directions from one set, as always with Rays::raster; else every lumel
     /// has its own.

@@ -13,6 +13,10 @@ namespace {
 constexpr double kLikelyRays = 64.0;
 /// [bytes] of a lumel per round and solution: number of its links.
 constexpr double kRowBytes = sizeof(std::uint16_t);
+/// [bytes] of a ray after the first round: its direction's chance.
+constexpr double kChanceBytes = sizeof(std::uint16_t);
+/// [bytes] of a lumel's guide, of which 32 or more share one.
+constexpr double kGuideBytes = sizeof(std::uint32_t) + sizeof(RayGuide::Chances) / 32.0;
 /// Fraction of lumels with direct light per cell: maximum seen.
 constexpr double kVarying = 0.1;
 constexpr double kShareOfFree = 0.5;
@@ -37,7 +41,9 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
     double rounds = 1.0;
     for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinAdded)
         ++rounds;
-    return std::uint64_t(double(lumels) * (rays * kLinkBytes + rounds * kSolutions * kRowBytes));
+    return std::uint64_t(double(lumels) *
+                         (rays * kLinkBytes + (rays - std::min(rays, kFirst)) * kChanceBytes +
+                          rounds * kSolutions * kRowBytes));
 }
 
 std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels)
@@ -73,9 +79,10 @@ double LinkRadiosity::rays_that_fit() const
     double taken = 0.0;
     for (const std::optional<LinkTable>& links : links_)
         taken += double(links->bytes());
-    const double of_ray =
-        state_.shots > 0 ? taken / double(state_.shots) : double(work_.order.size()) * kLinkBytes;
-    const double rows = kSolutions * double(work_.order.size()) * kRowBytes;
+    const auto lumels = double(work_.order.size());
+    const double of_ray = state_.shots > 0 ? taken / double(state_.shots) + lumels * kChanceBytes
+                                           : lumels * kLinkBytes;
+    const double rows = lumels * (kSolutions * kRowBytes + kGuideBytes);
     return std::max(double(most_bytes_) - taken - rows, 0.0) / (kSolutions * of_ray);
 }
 

@@ -14,6 +14,8 @@ namespace {
 constexpr double kEvenShare = 0.25;
 /// First rays of a cut lumel, if memory allows: each sub-lumel has a share of them only.
 constexpr std::uint16_t kFirstOfCut = 32;
+/// Maximum assumed gain of guided rays: few rays tell it, and a further round costs more than rays.
+constexpr double kMostGain = 3.0;
 /// Bisection steps for the rays that all lumels add.
 constexpr int kFillSteps = 24;
 /// Minimum brightness in ray allocation, relative to the mean.
@@ -33,7 +35,34 @@ double scale_for(double wanted, double start, const Sum& sum)
     return high;
 }
 
+/// Rays to add to `sent` for the variance of `wanted` rays like them, if the new ones have 1 / gain
+/// of their variance: x sent, with (1 + x / gain) / (1 + x)² = sent / wanted.
+double guided_rays(double sent, double wanted, double gain)
+{
+    if (!(wanted > sent))
+        return 0.0;
+    if (!(sent > 0.0))
+        return wanted;
+    const double ratio = wanted / sent, half = 1.0 - 0.5 * ratio / gain;
+    return sent * (std::sqrt(half * half + ratio - 1.0) - half);
+}
+
 }  // namespace
+
+/// [N] Variance of the rays of each lumel so far / of those of the next round. sent: rays_so_far().
+std::vector<double> LinkRadiosity::gain_of_guide(const std::vector<double>& sent) const
+{
+    std::vector<double> gain(sent.size(), 1.0);
+    if (guide_.empty())
+        return gain;
+    for (std::size_t o = 0; o < gain.size(); ++o) {
+        const std::uint32_t i = work_.order[o];
+        const double first = double(links_[0]->rounds.front()[o / kLinkBlock].rays[o % kLinkBlock]);
+        const double even = std::min(first / std::max(sent[i], 1.0), 1.0);
+        gain[i] = even * std::min(double(guide_.gain[guide_.group[i]]), kMostGain) + 1.0 - even;
+    }
+    return gain;
+}
 
 /// [N] Weight of each lumel's squared error. With a target for the eye that of its measure; for
 /// dark lumels 1 / irradiance, halfway between absolute and relative errors.
@@ -131,7 +160,8 @@ void LinkRadiosity::send_first_rays(double most)
 /// variances is minimal if all rays of a lumel are proportional to the deviation of one; lumels are
 /// filled up to that. Some rays are uniform, since lumels whose rays have not found a light yet
 /// seem noiseless.
-std::vector<double> LinkRadiosity::rays_by_deviation(double mean, const std::vector<double>& sent)
+std::vector<double> LinkRadiosity::rays_by_deviation(double mean, const std::vector<double>& sent,
+                                                     const std::vector<double>& gain)
 {
     std::vector<double> rays(sent.size(), 0.0);
     if (!(mean > 0.0))
@@ -156,13 +186,14 @@ std::vector<double> LinkRadiosity::rays_by_deviation(double mean, const std::vec
             return sum;
         });
     for (std::size_t i = 0; i < rays.size(); ++i)
-        rays[i] = kEvenShare * mean + added(i, scale);
+        rays[i] = kEvenShare * mean + guided_rays(sent[i], sent[i] + added(i, scale), gain[i]);
     return rays;
 }
 
 /// Raises the rays that lumels add to `sent` on charts whose visible noise is above its target;
 /// within a chart all rays are in proportion to the deviation of one.
-void LinkRadiosity::add_rays_of_charts(const std::vector<double>& sent, std::vector<double>& rays)
+void LinkRadiosity::add_rays_of_charts(const std::vector<double>& sent,
+                                       const std::vector<double>& gain, std::vector<double>& rays)
 {
     const std::span<const ChartNoise> noisy = noisy_charts();
     if (noisy.empty())
@@ -180,7 +211,8 @@ void LinkRadiosity::add_rays_of_charts(const std::vector<double>& sent, std::vec
         if (!(of_deviations > 0.0))
             continue;
         for (const std::uint32_t i : chart.lumels)
-            rays[i] = std::max(rays[i], ratio * sum / of_deviations * deviation[i] - sent[i]);
+            rays[i] = std::max(
+                rays[i], guided_rays(sent[i], ratio * sum / of_deviations * deviation[i], gain[i]));
     }
 }
 
@@ -188,8 +220,9 @@ void LinkRadiosity::add_rays_of_charts(const std::vector<double>& sent, std::vec
 void LinkRadiosity::share_out_rays(double most)
 {
     const std::vector<double> sent = rays_so_far();
-    std::vector<double> rays = rays_by_deviation(std::min(more_rays(), most), sent);
-    add_rays_of_charts(sent, rays);
+    const std::vector<double> gain = gain_of_guide(sent);
+    std::vector<double> rays = rays_by_deviation(std::min(more_rays(), most), sent, gain);
+    add_rays_of_charts(sent, gain, rays);
     double sum = 0.0, lit = 0.0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         sum += rays[i];

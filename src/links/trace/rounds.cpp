@@ -10,8 +10,9 @@ namespace {
 
 /// Maximum rays of a later round, relative to the rays so far.
 constexpr double kMaxAdded = 3.0;
-/// The same for charts, all rays. They aim below their target, so that they need one round.
-constexpr double kMostOfChart = 16.0, kAim = 0.8;
+/// Least and most rays of a noisy chart after a round, relative to those so far. They aim for this
+/// fraction of the target variance: a further round costs more than they do.
+constexpr double kLeastOfChart = 2.0, kMostOfChart = 16.0, kAim = 0.5;
 /// Rays allocated by deviation reduce the variance like 1 / kAdaptiveGain as many uniform ones.
 constexpr double kAdaptiveGain = 0.6;
 /// Refines direct light if its variance is this multiple of its target; at most to kMinDirect × the
@@ -125,8 +126,11 @@ void LinkRadiosity::begin_round()
         send_first_rays(most);
     } else {
         state_.full = fit < kMinAdded * double(state_.shots) / double(kSolutions);
-        if (!state_.full)
+        if (!state_.full) {
+            if (round_ == 1)
+                learn_guide();
             share_out_rays(most);
+        }
         state_.ended = !state_.full && !(mean_rays_ > 0.0);
         if (state_.full || state_.ended) {
             stage_ = Stage::direct;  // without work
@@ -200,7 +204,7 @@ double LinkRadiosity::rays_for(const ChartNoise& chart) const
         const Errors now = errors_in(chart, band);
         ratio = std::max(ratio, now.rays / (square - std::min(now.direct, kMaxShare * square)));
     }
-    return ratio > 1.0 ? std::clamp(ratio, 1.0 + kMinAdded, kMostOfChart) : 1.0;
+    return ratio > 1.0 ? std::clamp(ratio, kLeastOfChart, kMostOfChart) : 1.0;
 }
 
 /// Residual at which sweeps stop, relative to each sub-lumel's light: far below the target errors.

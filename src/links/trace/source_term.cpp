@@ -1,6 +1,7 @@
 #include "links/trace/source_term.h"
 
 #include <algorithm>
+#include <array>
 
 #include "base/core/parallel.h"
 
@@ -79,14 +80,20 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
                             const LinkTable& links)
 {
     SourceTerm sum{std::vector<glm::vec3>(parts.count(), glm::vec3(0.0f)),
-                   std::vector<std::uint32_t>(parts.count(), 0)};
+                   std::vector<float>(parts.count(), 0.0f)};
     const std::vector<char> unknown = unknown_parts(work, parts, numbers, links);
     std::vector<char> loses(work.order.size(), 0);
     for_each_row(work, parts, links, [&](const LinkRow& row, std::uint32_t i) {
         const std::uint32_t first = parts.first(i);
+        struct Count {
+            float rays = 0.0f, weights = 0.0f;
+            bool is_all = true;
+        };
+        std::array<Count, kMaxParts> counts;
         auto near = row.near.begin();
         for (std::size_t k = 0; k < row.ends.size(); ++k) {
-            const std::uint32_t part = first + row.leaves(parts, i, k);
+            const std::uint32_t leaves = row.leaves(parts, i, k);
+            const float weight = row.weight(k);
             LinkEnd end = row.ends[k];
             glm::vec3 light;
             if (end.number() == LinkNumbers::kNear) {
@@ -96,14 +103,23 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
                 light = reflected.at(end);
             }
             if (end.number() == numbers.hidden() ||
-                (numbers.is_part(end.number()) && unknown[numbers.part(end.number())]))
+                (numbers.is_part(end.number()) && unknown[numbers.part(end.number())])) {
+                counts[leaves].is_all = false;
                 continue;
+            }
             if (!numbers.is_part(end.number()))
                 loses[i] = 1;
-            if (numbers.is_lost(end.number()))
+            if (numbers.is_lost(end.number())) {
+                counts[leaves].is_all = false;
                 continue;
-            ++sum.rays[part];
-            sum.light[part] += light;
+            }
+            counts[leaves].rays += 1.0f;
+            counts[leaves].weights += weight;
+            sum.light[first + leaves] += weight * light;
+        }
+        for (std::uint32_t p = first; p < parts.end(i); ++p) {
+            const Count& count = counts[p - first];
+            sum.rays[p] += count.is_all ? count.rays : count.weights;
         }
     });
     for (std::size_t p = 0; p < sum.light.size(); ++p)
@@ -120,25 +136,29 @@ RayDistances find_distances(const LinkWork& work, const SubLumels& parts,
     const std::size_t count = work.lumels().size();
     RayDistances result{std::vector<float>(count, NearLink::kNoHit), std::vector<float>(count)};
     std::vector<std::uint32_t> rays(count, 0);
-    const auto add = [&](std::uint32_t i, float distance) {
+    const auto add = [&](std::uint32_t i, float distance, float weight) {
         result.nearest[i] = std::min(result.nearest[i], distance);
-        result.inverse[i] += 1.0f / distance;
+        result.inverse[i] += weight / distance;
     };
     for (const LinkTable* links : tables)
         for_each_row(work, parts, *links, [&](const LinkRow& row, std::uint32_t i) {
             const WorldLumel& lumel = work.world[i];
             rays[i] += std::uint32_t(std::ranges::count_if(
                 row.ends, [&](LinkEnd end) { return end.number() != numbers.hidden(); }));
-            for (const LinkEnd end : row.ends) {
+            for (std::size_t k = 0; k < row.ends.size(); ++k) {
+                const LinkEnd end = row.ends[k];
                 if (!numbers.is_part(end.number()))
                     continue;
                 const std::uint32_t j = parts.lumel(numbers.part(end.number()));
                 const WorldLumel& hit = work.world[j];
-                add(i, std::max(glm::distance(lumel.centre, hit.centre) - 0.5f * hit.size,
-                                kNearSides * std::max(lumel.size, hit.size)));
+                add(i,
+                    std::max(glm::distance(lumel.centre, hit.centre) - 0.5f * hit.size,
+                             kNearSides * std::max(lumel.size, hit.size)),
+                    row.weight(k));
             }
             for (const NearLink& near : row.near)
-                add(i, std::max(near.distance, kLeastDistance * lumel.size));
+                add(i, std::max(near.distance, kLeastDistance * lumel.size),
+                    row.weight(near.slot - row.first_slot));
         });
     for (std::size_t i = 0; i < count; ++i)
         result.inverse[i] /= float(std::max(rays[i], 1u));

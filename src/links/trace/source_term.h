@@ -15,9 +15,11 @@
 namespace lumel {
 
 struct SourceTerm {
-    std::vector<glm::vec3> light;     ///< [P] Σ over rays of reflected direct light, and sky [lx]
-    std::vector<std::uint32_t> rays;  ///< [P] rays that count: not those to sub-lumels without any
-    bool is_closed = false;           ///< all rays hit reflecting surfaces
+    std::vector<glm::vec3> light;  ///< [P] Σ over rays of reflected direct light, and sky [lx]
+    /// [P] Σ of the weights of rays that count: not those to sub-lumels without any. Where all
+    /// count, their number.
+    std::vector<float> rays;
+    bool is_closed = false;  ///< all rays hit reflecting surfaces
 };
 
 /// Direct light that each number of a link's end reflects [lm/m²].

@@ -28,6 +28,7 @@ void LinkRadiosity::relight()
     adapted_.clear();
     round_ = 0;
     means_.clear();
+    guide_ = {};
     state_ = {};
     stage_ = Stage::direct;
 }
@@ -49,6 +50,8 @@ void LinkRadiosity::begin_known_round()
         if (rays_[i] == 0 && (changes_.all || changes_.starts[i]))
             rays_[i] = std::uint16_t(std::lround(mean_rays_));
     first_rays_ = first_rays(round.rays);
+    if (round_ == 0)
+        guide_ = stored_->guide;
     begin_links();
 }
 
@@ -60,7 +63,8 @@ StoredLinks LinkRadiosity::kept(const std::string& hash) const
                      .ray_offset = work_.scene.rays.ray_offset(),
                      .lumels = lumel_hashes(work_.world, work_.scene.lumels),
                      .instances = instance_hashes(work_.scene.scene),
-                     .boxes = instance_boxes(work_.scene.scene)};
+                     .boxes = instance_boxes(work_.scene.scene),
+                     .guide = guide_};
     for (std::size_t r = 0; r < means_.size(); ++r)
         kept.rounds.push_back(stored_round(r, kept.numbers()));
     keep_places(work_.scene.atlas, kept);

@@ -49,16 +49,23 @@ void add_row(const LinkRow& row, const SubLumels& parts, std::size_t i,
 {
     if (row.from) {
         for (std::size_t k = 0; k < row.ends.size(); ++k)
-            sums[row.leaves(parts, i, k)] += sent[row.ends[k].number()];
+            sums[row.leaves(parts, i, k)] += row.weight(k) * sent[row.ends[k].number()];
+    } else if (row.chances) {
+        glm::vec4 sum = sums[0];
+        for (std::size_t k = 0; k < row.ends.size(); ++k)
+            sum += row.weight(k) * sent[row.ends[k].number()];
+        sums[0] = sum;
     } else {
         glm::vec4 sum = sums[0];
         for (const LinkEnd end : row.ends)
             sum += sent[end.number()];
         sums[0] = sum;
     }
-    for (const NearLink& near : row.near)
-        sums[row.leaves(parts, i, near.slot - row.first_slot)] +=
-            sent[near.end.number()] * glm::vec4(glm::unpackF3x9_E1x5(near.weight), 0.0f);
+    for (const NearLink& near : row.near) {
+        const std::size_t k = near.slot - row.first_slot;
+        sums[row.leaves(parts, i, k)] += row.weight(k) * sent[near.end.number()] *
+                                         glm::vec4(glm::unpackF3x9_E1x5(near.weight), 0.0f);
+    }
 }
 
 }  // namespace
@@ -155,10 +162,10 @@ private:
         const Lumel& lumel = solver_.work_.lumels()[i];
         const auto add = [&](std::size_t k, LinkEnd to, const glm::vec3& weight) {
             if (!solver_.numbers_.is_part(to.number()) ||
-                system.source.rays[solver_.numbers_.part(to.number())] == 0)
+                system.source.rays[solver_.numbers_.part(to.number())] == 0.0f)
                 return;
             const std::uint32_t p = first + row.leaves(parts, i, k), a = solver_.group_[p];
-            const double share = double(lumel.area) / double(last - first) /
+            const double share = double(row.weight(k)) * double(lumel.area) / double(last - first) /
                                  std::max(area_[a], kMinArea) / double(system.source.rays[p]);
             const std::uint32_t b = solver_.group_[solver_.numbers_.part(to.number())];
             for (int c = 0; c < 3; ++c)
@@ -252,8 +259,8 @@ LinkSolver::Change LinkSolver::sweep_block(const System& system, std::size_t b, 
             add_row(rows.next(parts_.is_cut(i)), parts_, i, sent, sums);
         for (std::uint32_t p = first; p < last; ++p) {
             // Links to one without rays do not count: that of its lumel's other parts would leak.
-            const std::uint32_t rays = system.source.rays[p];
-            received[p] = rays > 0 ? glm::vec3(sums[p - first]) / float(rays) : glm::vec3(0.0f);
+            const float rays = system.source.rays[p];
+            received[p] = rays > 0.0f ? glm::vec3(sums[p - first]) / rays : glm::vec3(0.0f);
             const std::uint32_t n = numbers_.of_part(p);
             next[n] = glm::vec4(albedo_[p] * received[p], 0.0f);
             const double now = double(next[n].x + next[n].y + next[n].z);

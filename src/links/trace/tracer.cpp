@@ -32,8 +32,7 @@ constexpr int kMaxReflections = 8;
 constexpr float kAboveHit = 0.05f;
 
 /// Dimension pairs of a ray's random numbers; each reflection uses kPerReflection more.
-constexpr std::uint32_t kOriginPair = 0, kDirectionPair = 1, kPassPair = 2, kFirstReflection = 3,
-                        kPerReflection = 2;
+constexpr std::uint32_t kOriginPair = 0, kPassPair = 2, kFirstReflection = 3, kPerReflection = 2;
 
 }  // namespace
 
@@ -86,6 +85,7 @@ struct LinkTracer::RayBatch {
     std::vector<std::uint32_t> slots_before;  ///< [lumels + 1]
     std::vector<LinkEnd> ends;                ///< [slots]
     std::vector<std::uint8_t> from;           ///< [slots] cells that the rays leave
+    std::vector<std::uint16_t> chances;       ///< [slots] of guided directions
     std::vector<SkyRay> sky;
     std::vector<Path> paths;  ///< by slot
 
@@ -115,6 +115,7 @@ struct LinkTracer::RayBatch {
         slots_before.assign(1, 0);
         ends.clear();
         from.clear();
+        chances.clear();
         sky.clear();
         paths.clear();
         rays.clear();
@@ -176,10 +177,19 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         shared.emplace(*sending.shared);
     const std::span<const LinkEnd> known =
         sending.known ? sending.known->of(i, rays) : std::span<const LinkEnd>();
+    std::optional<GuidedDraw> guided;
+    if (sending.guide)
+        guided.emplace(sending.guide->chances[sending.guide->group[i]]);
     std::optional<SeenCells> seen;  // made for the first ray that needs it
     glm::vec3 axis(0.0f);
     glm::mat3 frame(0.0f);
     for (std::uint32_t k = 0; k < rays; ++k) {
+        const PathSamples samples = own[k];
+        std::optional<GuidedDraw::Drawn> drawn;
+        if (guided) {
+            drawn = (*guided)(samples.stratified(kDirectionPair));
+            wave.chances.push_back(guided->chance(drawn->bin));
+        }
         std::optional<LinkEnd> end;
         if (!known.empty())
             end = still(known[k], *sending.known);
@@ -189,7 +199,6 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
             wave.from.push_back(0);
             continue;
         }
-        const PathSamples samples = own[k];
         const RayOrigin start = work_.starts.start(i, samples.stratified(kOriginPair));
         if (parts_.has_hidden(i) && !seen)
             seen.emplace(parts_.seen_cells(i));
@@ -210,7 +219,8 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
                 axis = start.normal;
                 frame = frame_about(axis);
             }
-            direction = frame * by_cosine(samples.stratified(kDirectionPair));
+            direction =
+                frame * by_cosine(drawn ? drawn->point : samples.stratified(kDirectionPair));
         }
         if (start.cosine(direction) > 0.0f) {
             const RaySpan ray = ray_out(start.position, direction, samples.bits(kPassPair));
@@ -513,11 +523,16 @@ void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
                                       glm::packF3x9_E1x5(path->weight), path->distance,
                                       path->light});
         for (; sky != wave.sky.end() && sky->slot < end; ++sky)
-            into.sky[parts_.part(i, wave.from[sky->slot])] += sky->light;
+            into.sky[parts_.part(i, wave.from[sky->slot])] +=
+                (wave.chances.empty() ? 1.0f : RayGuide::weight(wave.chances[sky->slot])) *
+                sky->light;
         if (parts_.is_cut(i))
             block.from.insert(block.from.end(), wave.from.begin() + begin, wave.from.begin() + end);
         block.rays.push_back(std::uint16_t(end - begin));
         block.ends.insert(block.ends.end(), wave.ends.begin() + begin, wave.ends.begin() + end);
+        if (!wave.chances.empty())
+            block.chances.insert(block.chances.end(), wave.chances.begin() + begin,
+                                 wave.chances.begin() + end);
     }
 }
 
@@ -578,6 +593,10 @@ void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sendi
         block.ends.shrink_to_fit();
         block.from.shrink_to_fit();
         block.near.shrink_to_fit();
+        block.chances.shrink_to_fit();
+        const auto is_even = [](std::uint16_t chance) { return chance == RayGuide::kEven; };
+        if (std::ranges::all_of(block.chances, is_even))
+            block.chances = {};
     }
 }
 

@@ -22,6 +22,8 @@ namespace lumel {
 /// Random streams: shared directions, sub-lumels, direct light, and links of the solutions.
 inline constexpr std::uint32_t kSharedStream = 0, kPartStream = 1, kDirectStream = 2,
                                kLinkStream = 3;
+/// Dimension pair of a ray's direction.
+inline constexpr std::uint32_t kDirectionPair = 1;
 
 /// Traces rays from lumels until they hit a sub-lumel.
 class LinkTracer {
@@ -47,6 +49,7 @@ public:
         const std::vector<std::uint16_t>& rays;  ///< [N]; powers of two stratify best
         std::uint32_t stream;                    ///< random stream
         const SharedDirections* shared;          ///< null: every lumel has its own directions
+        const RayGuide* guide = nullptr;         ///< null: rays are even
         std::optional<Known> known = {};         ///< traces only what can have changed
     };
     /// Traces blocks [first, last) into the last round of `into`.

@@ -33,7 +33,7 @@ struct SolverState {
     /// unknown.
     double dark_error = -1.0;
     /// RMS of errors relative to the light that an eye adapts to at each lumel, see
-    /// links/trace/adapted_light.h; < 0: unknown.
+    /// links/filter/adapted_light.h; < 0: unknown.
     double eye_error = -1.0;
     VisibleNoise visible_noise;  ///< only links
     bool full = false;           ///< memory is exhausted: further steps change nothing

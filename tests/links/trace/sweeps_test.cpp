@@ -33,12 +33,13 @@ struct TracedRoom {
     }
 
     /// Adds a round of links with other random numbers, then finds all bounces.
-    void add_round(std::uint16_t rays)
+    void add_round(std::uint16_t rays, const RayGuide* guide = nullptr)
     {
         links.rounds.emplace_back(tracer.blocks());
         const std::vector<std::uint16_t> each(work.order.size(), rays);
-        tracer.trace(0, tracer.blocks(),
-                     {each, kLinkStream + std::uint32_t(links.rounds.size()), nullptr}, links);
+        LinkTracer::Sending sending{each, kLinkStream + std::uint32_t(links.rounds.size()), nullptr,
+                                    guide};
+        tracer.trace(0, tracer.blocks(), sending, links);
         source = find_source_term(work, parts, numbers, {work, parts, numbers, direct}, links);
         solver.solve(links, source, 1e-3, received);
     }
@@ -77,12 +78,17 @@ std::vector<Link> links_of(const TracedRoom& room)
                     const std::uint32_t cell =
                         room.parts.is_cut(lumel) ? round[b].from[left++] : 0u;
                     const std::uint32_t from = room.parts.part(lumel, cell);
+                    const double of_chance =
+                        round[b].chances.empty()
+                            ? 1.0
+                            : double(RayGuide::kEven) / double(round[b].chances[slot]);
                     const std::vector<NearLink>& by_slot = round[b].near;
                     if (near < by_slot.size() && by_slot[near].slot == slot) {
-                        add(from, by_slot[near].end, glm::unpackF3x9_E1x5(by_slot[near].weight));
+                        add(from, by_slot[near].end,
+                            of_chance * glm::dvec3(glm::unpackF3x9_E1x5(by_slot[near].weight)));
                         ++near;
                     } else {
-                        add(from, round[b].ends[slot], glm::dvec3(1.0));
+                        add(from, round[b].ends[slot], glm::dvec3(of_chance));
                     }
                 }
             }
@@ -98,7 +104,7 @@ Light swept(const TracedRoom& room, const std::vector<Link>& links, const Light&
         sum[link.from] += link.weight *
                           glm::dvec3(room.work.lumels()[room.parts.lumel(link.to)].albedo) *
                           light[link.to];
-    const std::vector<std::uint32_t>& rays = room.source.rays;
+    const std::vector<float>& rays = room.source.rays;
     for (std::size_t p = 0; p < sum.size(); ++p)
         sum[p] = rays[p] > 0 ? sum[p] / double(rays[p]) : glm::dvec3(0.0);
     return sum;
@@ -138,6 +144,18 @@ TEST(LinkSolver, SolvesLaterRoundsAsWellAsTheFirst)
         room.add_round(std::uint16_t(rays));
         EXPECT_LE(distance_from_limit(room), kSolved) << "round " << room.links.rounds.size();
     }
+}
+
+TEST(LinkSolver, SolvesRoundsOfWeightedLinks)
+{
+    constexpr double kSolved = 5e-3;
+    TracedRoom room;
+    RayGuide guide{std::vector<std::uint32_t>(room.work.order.size(), 0), {{}}, {1.0f}};
+    for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
+        guide.chances[0][b] = std::uint16_t(b % 2 == 0 ? 128 : 384);
+    room.add_round(16);
+    room.add_round(16, &guide);
+    EXPECT_LE(distance_from_limit(room), kSolved);
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ TEST(SharedDirections, LeaveNoPattern)
         constexpr std::uint32_t kSeeds = 4;
         for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
             const LinksOptions method{
-                .seed = seed, .rays = Rays::host, .shared_directions = is_shared};
+                .seed = seed, .guide = false, .rays = Rays::host, .shared_directions = is_shared};
             const double one = support::error_alone(
                 support::solve_links(world, method, 96).irradiance, first, second);
             square += one * one / kSeeds;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "links/trace/adapted_light.h"
+#include "links/filter/adapted_light.h"
 
 namespace lumel {
 namespace {

@@ -1,4 +1,4 @@
-#include "links/trace/adapted_light.h"
+#include "links/filter/adapted_light.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,169 @@
+// LinkRadiosity's guide: from where the first round's rays brought light to groups of neighbours.
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+#include <glm/gtc/packing.hpp>
+
+#include "base/core/frame.h"
+#include "base/core/luminance.h"
+#include "base/core/parallel.h"
+#include "base/core/pi.h"
+#include "base/core/sphere.h"
+#include "links/trace/links.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels of a group: the most, and the least that have enough rays to learn from.
+constexpr std::size_t kMaxGroup = 64, kMinGroup = 16;
+/// In brighter rooms rays stay even: the weights of a lumel's links sum to 1 only in the mean,
+/// which light that is reflected for long would amplify.
+constexpr double kBrightestGuided = 0.9;
+/// Blocks of links per task.
+constexpr std::size_t kGuideBlocksPerTask = 4;
+
+/// Runs of lumels that face the same way, in equal parts.
+std::vector<LumelRange> groups_of(const WorldLumels& world, std::span<const std::uint32_t> lumels)
+{
+    std::vector<LumelRange> groups;
+    for (std::size_t first = 0; first < lumels.size();) {
+        const int side = cube_side(world[lumels[first]].normal);
+        std::size_t last = first + 1;
+        while (last < lumels.size() && cube_side(world[lumels[last]].normal) == side)
+            ++last;
+        const std::size_t parts = (last - first + kMaxGroup - 1) / kMaxGroup;
+        for (std::size_t part = 0; part < parts; ++part)
+            groups.push_back({first + (last - first) * part / parts,
+                              first + (last - first) * (part + 1) / parts});
+        first = last;
+    }
+    std::erase_if(groups, [](const LumelRange& one) { return one.last - one.first < kMinGroup; });
+    return groups;
+}
+
+}  // namespace
+
+/// Luminous light that ends of links send [lm/m²].
+struct LinkRadiosity::SentLight {
+    std::vector<float> indirect, all;  ///< [numbers]
+};
+
+struct LinkRadiosity::LearntGroup {
+    LumelRange lumels;  ///< in work_.order
+    GuideMoments::Found found;
+};
+
+/// Whether rays may be uneven.
+bool LinkRadiosity::can_guide() const
+{
+    double area = 0.0, albedo = 0.0;
+    for (const Lumel& lumel : work_.lumels()) {
+        if (lumel.flags & kLumelBuried)
+            continue;
+        area += double(lumel.area);
+        albedo +=
+            double(lumel.area) * double(lumel.albedo.r + lumel.albedo.g + lumel.albedo.b) / 3.0;
+    }
+    return options_.guide && !shares_directions() && albedo <= kBrightestGuided * area;
+}
+
+/// Light that ends of links send in a solution: the mean over the cells of a lumel, as what a guide
+/// does not know costs noise, not light.
+LinkRadiosity::SentLight LinkRadiosity::light_sent(std::size_t k) const
+{
+    SentLight sent{std::vector<float>(numbers_->count(), 0.0f),
+                   std::vector<float>(numbers_->count(), 0.0f)};
+    for (std::uint32_t p = 0; p < parts_->count(); ++p) {
+        const std::uint32_t i = parts_->lumel(p), number = numbers_->of_part(p);
+        const glm::vec3& albedo = work_.lumels()[i].albedo;
+        sent.indirect[number] = float(luminance(albedo * received_[k][p]));
+        sent.all[number] = sent.indirect[number] + float(luminance(albedo * direct_->mean(i)));
+    }
+    return sent;
+}
+
+/// Adds the rays of a lumel in the first round of a solution.
+void LinkRadiosity::add_moments(std::uint32_t i, std::uint32_t k, const LinkRow& row,
+                                const SentLight& sent, GuideMoments& moments) const
+{
+    const LumelSamples own(work_.lumels()[i], std::uint32_t(work_.scene.lumels.width),
+                           PathSamples::hash(options_.seed, kLinkStream + k),
+                           std::uint32_t(row.ends.size()));
+    const glm::mat3 frame = frame_about(work_.world[i].normal);
+    auto near = row.near.begin();
+    for (std::uint32_t n = 0; n < row.ends.size(); ++n) {
+        const glm::vec2 point = own[n].stratified(kDirectionPair);
+        const std::uint32_t number = row.ends[n].number();
+        double light = double(sent.all[number]);
+        if (number == LinkNumbers::kNear) {
+            light = luminance(near->light) + luminance(glm::unpackF3x9_E1x5(near->weight)) *
+                                                 double(sent.indirect[near->end.number()]);
+            ++near;
+        } else if (number == LinkNumbers::kSky) {
+            light = luminance(glm::vec3(kPi * work_.sources.dim_sky(frame * by_cosine(point))));
+        }
+        moments.add(k, RayGuide::bin_of(point), light);
+    }
+}
+
+/// What the first round tells of a block's groups.
+std::vector<LinkRadiosity::LearntGroup>
+LinkRadiosity::learn_block(std::size_t b, const std::array<SentLight, kSolutions>& sent) const
+{
+    const std::size_t first = b * kLinkBlock;
+    const auto lumels =
+        std::span(work_.order).subspan(first, std::min(kLinkBlock, work_.order.size() - first));
+    std::array<std::vector<LinkRow>, kSolutions> rows;
+    for (std::uint32_t k = 0; k < kSolutions; ++k) {
+        LinkRows all(links_[k]->rounds.front()[b]);
+        for (const std::uint32_t i : lumels)
+            rows[k].push_back(all.next(parts_->is_cut(i)));
+    }
+    std::vector<LearntGroup> learnt;
+    for (const LumelRange& group : groups_of(work_.world, lumels)) {
+        GuideMoments moments(kSolutions);
+        for (std::uint32_t k = 0; k < kSolutions; ++k)
+            for (std::size_t n = group.first; n < group.last; ++n)
+                add_moments(lumels[n], k, rows[k][n], sent[k], moments);
+        if (const std::optional<GuideMoments::Found> found = moments.find())
+            learnt.push_back({{first + group.first, first + group.last}, *found});
+    }
+    return learnt;
+}
+
+/// Learns from the first round, whose rays are even.
+void LinkRadiosity::learn_guide()
+{
+    if (!can_guide())
+        return;
+    std::array<SentLight, kSolutions> sent;
+    for (std::size_t k = 0; k < kSolutions; ++k)
+        sent[k] = light_sent(k);
+    std::vector<std::vector<LearntGroup>> learnt(tracer_->blocks());
+    parallel_for(learnt.size(), kGuideBlocksPerTask, [&](std::size_t from, std::size_t to) {
+        for (std::size_t b = from; b < to; ++b)
+            learnt[b] = learn_block(b, sent);
+    });
+    for (const std::vector<LearntGroup>& block : learnt)
+        for (const LearntGroup& group : block) {
+            if (guide_.empty()) {
+                guide_.group.assign(work_.order.size(), 0);
+                guide_.chances.emplace_back().fill(std::uint16_t(RayGuide::kEven));
+                guide_.gain.push_back(1.0f);
+            }
+            for (std::size_t o = group.lumels.first; o < group.lumels.last; ++o)
+                guide_.group[work_.order[o]] = std::uint32_t(guide_.chances.size());
+            guide_.chances.push_back(group.found.chances);
+            guide_.gain.push_back(group.found.gain);
+        }
+}
+
+/// Of a round's rays; null: they are even.
+const RayGuide* LinkRadiosity::guide_in(std::uint32_t round) const
+{
+    return round > 0 && !guide_.empty() ? &guide_ : nullptr;
+}
+
+}  // namespace lumel
