@@ -54,6 +54,7 @@ bool RayGuide::fits(std::size_t lumels) const
         return sum == kAll && std::ranges::find(of, 0) == of.end();
     };
     return group.size() == (chances.empty() ? 0 : lumels) && gain.size() == chances.size() &&
+           std::ranges::all_of(gain, [](float g) { return g >= 1.0f && g <= float(kMaxGain); }) &&
            std::ranges::all_of(group, [&](std::uint32_t g) { return g < chances.size(); }) &&
            std::ranges::all_of(chances, is_sound);
 }

@@ -1,6 +1,7 @@
 // Guided rays: their density, and that their weights keep the light what it is.
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -110,6 +111,9 @@ TEST(RayGuide, RefusesChancesThatNoRayCouldHave)
     guide.group[1] = 1;
     EXPECT_FALSE(guide.fits(2));
     guide.group[1] = 0;
+    guide.gain[0] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(guide.fits(2));
+    guide.gain[0] = 1.0f;
     guide.chances[0][5] = 0;
     EXPECT_FALSE(guide.fits(2));
 }
