@@ -30,8 +30,9 @@ bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const S
     }
     for (const LinkEnd end : block.ends)
         near += end.number() == LinkNumbers::kNear ? 1 : 0;
-    return near == block.near.size() && (block.chances.empty() || block.chances.size() == slots) &&
-           std::ranges::find(block.chances, 0) == block.chances.end() &&
+    return near == block.near.size() &&
+           (block.probabilities.empty() || block.probabilities.size() == slots) &&
+           std::ranges::find(block.probabilities, 0) == block.probabilities.end() &&
            std::all_of(block.ends.begin(), block.ends.end(), is_known) &&
            std::all_of(block.from.begin(), block.from.end(),
                        [](std::uint8_t cell) { return cell < kCells; });
@@ -55,7 +56,7 @@ std::size_t LinkTable::bytes() const
         for (const LinkBlock& block : blocks)
             bytes += block.rays.size() * sizeof(std::uint16_t) +
                      block.ends.size() * sizeof(LinkEnd) + block.from.size() +
-                     block.chances.size() * sizeof(std::uint16_t) +
+                     block.probabilities.size() * sizeof(std::uint16_t) +
                      block.near.size() * sizeof(NearLink);
     return bytes;
 }

@@ -88,14 +88,14 @@ struct LinkBlock {
     std::vector<LinkEnd> ends;        ///< [slots]
     std::vector<std::uint8_t> from;   ///< cells that the rays of cut lumels leave, in order
     std::vector<NearLink> near;       ///< by slot
-    /// [slots] Chances of the directions, see RayGuide; empty: all are even.
-    std::vector<std::uint16_t> chances;
+    /// [slots] Of the directions, see RayGuide; empty: all are equal.
+    std::vector<std::uint16_t> probabilities;
     std::uint64_t traced = 0;  ///< rays; the ends of others were known
 
     template <class Archive>
     void state(Archive& archive)
     {
-        archive(rays, ends, from, near, chances, traced);
+        archive(rays, ends, from, near, probabilities, traced);
     }
 };
 
@@ -108,10 +108,13 @@ struct LinkRow {
     std::span<const LinkEnd> ends;
     const std::uint8_t* from;  ///< [ends] cells, or null for lumels that are not cut
     std::span<const NearLink> near;
-    const std::uint16_t* chances;  ///< [ends] or null: all even
+    const std::uint16_t* probabilities;  ///< [ends] or null: all are equal
 
     /// Weight of ray k, as which its light counts; 1 on average.
-    float weight(std::size_t k) const { return chances ? RayGuide::weight(chances[k]) : 1.0f; }
+    float weight(std::size_t k) const
+    {
+        return probabilities ? RayGuide::weight(probabilities[k]) : 1.0f;
+    }
 
     /// Number of the sub-lumel, in its lumel, that ray k leaves.
     std::uint32_t leaves(const SubLumels& parts, std::size_t lumel, std::size_t k) const
@@ -129,8 +132,8 @@ public:
     {
         const std::size_t rays = block_->rays[lumel_++];
         LinkRow row{slot_, {block_->ends.data() + slot_, rays}, nullptr, {}, nullptr};
-        if (!block_->chances.empty())
-            row.chances = block_->chances.data() + slot_;
+        if (!block_->probabilities.empty())
+            row.probabilities = block_->probabilities.data() + slot_;
         if (is_cut) {
             row.from = block_->from.data() + from_;
             from_ += std::uint32_t(rays);

@@ -15,24 +15,32 @@
 
 #include <glm/glm.hpp>
 
+#include "links/direct/solutions.h"
+
 namespace lumel {
 
-/// Chances of the directions in which groups of neighbouring lumels send rays: of points of the
-/// unit square, from which by_cosine() makes directions, in kSide × kSide bins. Group 0 draws
-/// evenly. Empty: all lumels do.
+/// Probabilities of the directions in which groups of neighbouring lumels send rays: of points of
+/// the unit square, from which by_cosine() makes directions, in kSide × kSide bins. Group 0 draws
+/// uniformly. Empty: all lumels do.
 struct RayGuide {
     static constexpr std::uint32_t kSide = 16, kBins = kSide * kSide;
-    /// Sum of the chances of a group's bins, and the chance of one that is drawn evenly.
-    static constexpr std::uint32_t kAll = 1u << 16, kEven = kAll / kBins;
+    /// A probability of 1, and that of each bin if all are equal.
+    static constexpr std::uint32_t kOne = 1u << 16, kUniform = kOne / kBins;
 
-    using Chances = std::array<std::uint16_t, kBins>;  ///< each at least 1
+    using Probabilities = std::array<std::uint16_t, kBins>;  ///< [1 / kOne] each at least 1
+
+    struct Table {
+        Probabilities probabilities;
+        float gain;  ///< variance of a uniform ray / of a guided one
+    };
 
     std::vector<std::uint32_t> group;  ///< [N]
-    std::vector<Chances> chances;      ///< [groups]
-    std::vector<float> gain;           ///< [groups] variance of an even ray / of a guided one
+    std::vector<Table> tables;         ///< [groups]
 
-    /// Weight of a ray to a bin of that chance.
-    static float weight(std::uint16_t chance) { return float(kEven) / float(chance); }
+    /// That of group 0.
+    static Table uniform();
+    /// Weight of a ray to a bin of that probability.
+    static float weight(std::uint16_t probability) { return float(kUniform) / float(probability); }
     /// Bin of a point in the unit square.
     static std::uint32_t bin_of(const glm::vec2& point);
 
@@ -43,19 +51,14 @@ struct RayGuide {
     template <class Archive>
     void state(Archive& archive)
     {
-        archive(group, chances, gain);
+        archive(group, tables);
     }
-};
-
-/// Neighbours that face the same way, by their numbers in an order.
-struct LumelRange {
-    std::size_t first, last;
 };
 
 /// Draws directions of one group.
 class GuidedDraw {
 public:
-    explicit GuidedDraw(const RayGuide::Chances& chances);
+    explicit GuidedDraw(const RayGuide::Probabilities& probabilities);
 
     struct Drawn {
         glm::vec2 point;  ///< in the unit square
@@ -63,38 +66,32 @@ public:
     };
     /// Uniform points become points of that density; nets stay stratified.
     Drawn operator()(const glm::vec2& uniform) const;
-    std::uint16_t chance(std::uint32_t bin) const { return chances_[bin]; }
+    std::uint16_t probability(std::uint32_t bin) const { return probabilities_[bin]; }
 
 private:
-    const RayGuide::Chances& chances_;
+    const RayGuide::Probabilities& probabilities_;
     std::array<std::uint32_t, RayGuide::kSide + 1> rows_;  ///< running sums
 };
 
-/// Second moments of the light along even rays of a group, of independent solutions.
+/// Second moments of the light along uniform rays of a group, in each solution.
 class GuideMoments {
 public:
-    GuideMoments(std::size_t solutions) : square_(solutions), light_(solutions), rays_(solutions) {}
-
     /// Adds a ray. light: along it.
     void add(std::size_t solution, std::uint32_t bin, double light);
 
-    struct Found {
-        RayGuide::Chances chances;
-        float gain;  ///< variance with even chances / that with these
-    };
-    /// The chances with the least variance of rays of another solution than those from which they
-    /// follow; empty if even ones are as good.
-    std::optional<Found> find() const;
+    /// The table with the least variance of rays of another solution than those that it is learnt
+    /// from; empty if uniform rays are as good.
+    std::optional<RayGuide::Table> find() const;
 
 private:
     using Bins = std::array<double, RayGuide::kBins>;
 
-    static RayGuide::Chances chances_for(const Bins& square, double share);
-    double variance(std::size_t solution, const RayGuide::Chances& chances) const;
+    static RayGuide::Probabilities probabilities_for(const Bins& square, double share);
+    double variance(std::size_t solution, const RayGuide::Probabilities& probabilities) const;
 
-    std::vector<Bins> square_;   ///< [solutions] Σ f²
-    std::vector<double> light_;  ///< [solutions] Σ f
-    std::vector<double> rays_;   ///< [solutions]
+    std::array<Bins, kSolutions> square_{};   ///< Σ f²
+    std::array<double, kSolutions> light_{};  ///< Σ f
+    std::array<double, kSolutions> rays_{};
 };
 
 }  // namespace lumel

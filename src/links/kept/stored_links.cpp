@@ -95,7 +95,7 @@ StoredLinks renumbered(const StoredLinks& kept, const Renumbering& now)
             result.gone.push_back(kept.boxes[i]);
         }
     if (!kept.guide.empty())
-        result.guide = {std::vector<std::uint32_t>(now.lumels_now, 0), kept.guide.chances};
+        result.guide = {std::vector<std::uint32_t>(now.lumels_now, 0), kept.guide.tables};
     for (std::size_t i = 0; i < now.lumels.size(); ++i)
         if (const std::uint32_t to = now.lumels[i]; to != Renumbering::kNotThere) {
             result.lumels[to] = kept.lumels[i];

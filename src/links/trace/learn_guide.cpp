@@ -18,11 +18,16 @@ namespace {
 
 /// Lumels of a group: the most, and the least that have enough rays to learn from.
 constexpr std::size_t kMaxGroup = 64, kMinGroup = 16;
-/// In brighter rooms rays stay even: the weights of a lumel's links sum to 1 only in the mean,
+/// In brighter rooms rays stay uniform: the weights of a lumel's links sum to 1 only in the mean,
 /// which light that is reflected for long would amplify.
 constexpr double kBrightestGuided = 0.9;
 /// Blocks of links per task.
 constexpr std::size_t kGuideBlocksPerTask = 4;
+
+/// By their numbers in an order.
+struct LumelRange {
+    std::size_t first, last;
+};
 
 /// Runs of lumels that face the same way, in equal parts.
 std::vector<LumelRange> groups_of(const WorldLumels& world, std::span<const std::uint32_t> lumels)
@@ -51,22 +56,14 @@ struct LinkRadiosity::SentLight {
 };
 
 struct LinkRadiosity::LearntGroup {
-    LumelRange lumels;  ///< in work_.order
-    GuideMoments::Found found;
+    std::size_t first, last;  ///< lumels, in work_.order
+    RayGuide::Table table;
 };
 
 /// Whether rays may be uneven.
 bool LinkRadiosity::can_guide() const
 {
-    double area = 0.0, albedo = 0.0;
-    for (const Lumel& lumel : work_.lumels()) {
-        if (lumel.flags & kLumelBuried)
-            continue;
-        area += double(lumel.area);
-        albedo +=
-            double(lumel.area) * double(lumel.albedo.r + lumel.albedo.g + lumel.albedo.b) / 3.0;
-    }
-    return options_.guide && !shares_directions() && albedo <= kBrightestGuided * area;
+    return options_.guide && !shares_directions() && mean_albedo() <= kBrightestGuided;
 }
 
 /// Light that ends of links send in a solution: the mean over the cells of a lumel, as what a guide
@@ -108,7 +105,7 @@ void LinkRadiosity::add_moments(std::uint32_t i, std::uint32_t k, const LinkRow&
     }
 }
 
-/// What the first round tells of a block's groups.
+/// Tables of those groups of a block that gain by them.
 std::vector<LinkRadiosity::LearntGroup>
 LinkRadiosity::learn_block(std::size_t b, const std::array<SentLight, kSolutions>& sent) const
 {
@@ -123,17 +120,17 @@ LinkRadiosity::learn_block(std::size_t b, const std::array<SentLight, kSolutions
     }
     std::vector<LearntGroup> learnt;
     for (const LumelRange& group : groups_of(work_.world, lumels)) {
-        GuideMoments moments(kSolutions);
+        GuideMoments moments;
         for (std::uint32_t k = 0; k < kSolutions; ++k)
             for (std::size_t n = group.first; n < group.last; ++n)
                 add_moments(lumels[n], k, rows[k][n], sent[k], moments);
-        if (const std::optional<GuideMoments::Found> found = moments.find())
-            learnt.push_back({{first + group.first, first + group.last}, *found});
+        if (const std::optional<RayGuide::Table> table = moments.find())
+            learnt.push_back({first + group.first, first + group.last, *table});
     }
     return learnt;
 }
 
-/// Learns from the first round, whose rays are even.
+/// Learns from the first round, whose rays are uniform.
 void LinkRadiosity::learn_guide()
 {
     if (!can_guide())
@@ -150,17 +147,15 @@ void LinkRadiosity::learn_guide()
         for (const LearntGroup& group : block) {
             if (guide_.empty()) {
                 guide_.group.assign(work_.order.size(), 0);
-                guide_.chances.emplace_back().fill(std::uint16_t(RayGuide::kEven));
-                guide_.gain.push_back(1.0f);
+                guide_.tables.push_back(RayGuide::uniform());
             }
-            for (std::size_t o = group.lumels.first; o < group.lumels.last; ++o)
-                guide_.group[work_.order[o]] = std::uint32_t(guide_.chances.size());
-            guide_.chances.push_back(group.found.chances);
-            guide_.gain.push_back(group.found.gain);
+            for (std::size_t o = group.first; o < group.last; ++o)
+                guide_.group[work_.order[o]] = std::uint32_t(guide_.tables.size());
+            guide_.tables.push_back(group.table);
         }
 }
 
-/// Of a round's rays; null: they are even.
+/// Of a round's rays; null: they are uniform.
 const RayGuide* LinkRadiosity::guide_in(std::uint32_t round) const
 {
     return round > 0 && !guide_.empty() ? &guide_ : nullptr;

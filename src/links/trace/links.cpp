@@ -286,14 +286,27 @@ void LinkRadiosity::end_round()
     go_on();
 }
 
+/// Of all surfaces, by area.
+double LinkRadiosity::mean_albedo() const
+{
+    double area = 0.0, reflected = 0.0;
+    for (const Lumel& lumel : work_.lumels()) {
+        if (lumel.flags & kLumelBuried)
+            continue;
+        const double albedo = double(lumel.albedo.r + lumel.albedo.g + lumel.albedo.b) / 3.0;
+        area += double(lumel.area);
+        reflected += double(lumel.area) * albedo;
+    }
+    return area > 0.0 ? reflected / area : 0.0;
+}
+
 /// In a bright closed room the overall level of the light is noisy, but the absorbed light is
 /// known: it equals the direct light, Σ A (1 - ρ) (D + X) = Σ A D.
 void LinkRadiosity::balance(std::size_t k)
 {
-    if (!sources_[k].is_closed)
+    if (!sources_[k].is_closed || mean_albedo() < kBrightRoom)
         return;
     glm::dvec3 absorbed(0.0), reflected(0.0);
-    double area = 0.0, albedo = 0.0;
     for (std::size_t i = 0; i < work_.lumels().size(); ++i) {
         const Lumel& lumel = work_.lumels()[i];
         if (lumel.flags & kLumelBuried)
@@ -301,11 +314,7 @@ void LinkRadiosity::balance(std::size_t k)
         const double a = double(lumel.area);
         absorbed += a * glm::dvec3((1.0f - lumel.albedo) * indirect(i, k));
         reflected += a * glm::dvec3(lumel.albedo * direct_->mean(i));
-        area += a;
-        albedo += a * double(lumel.albedo.r + lumel.albedo.g + lumel.albedo.b) / 3.0;
     }
-    if (albedo < kBrightRoom * area)
-        return;
     glm::vec3 factor(1.0f);
     for (int c = 0; c < 3; ++c)
         if (absorbed[c] > 0.0)

@@ -160,6 +160,7 @@ private:
     double sweep_residual() const;
     void solve();
     void end_round();
+    double mean_albedo() const;
     void balance(std::size_t solution);
     void go_on();
     double begun() const;

@@ -13,10 +13,10 @@ namespace {
 constexpr double kLikelyRays = 64.0;
 /// [bytes] of a lumel per round and solution: number of its links.
 constexpr double kRowBytes = sizeof(std::uint16_t);
-/// [bytes] of a ray after the first round: its direction's chance.
-constexpr double kChanceBytes = sizeof(std::uint16_t);
+/// [bytes] of a ray after the first round: the probability of its direction.
+constexpr double kProbabilityBytes = sizeof(std::uint16_t);
 /// [bytes] of a lumel's guide, of which 32 or more share one.
-constexpr double kGuideBytes = sizeof(std::uint32_t) + sizeof(RayGuide::Chances) / 32.0;
+constexpr double kGuideBytes = sizeof(std::uint32_t) + sizeof(RayGuide::Table) / 32.0;
 /// Fraction of lumels with direct light per cell: maximum seen.
 constexpr double kVarying = 0.1;
 constexpr double kShareOfFree = 0.5;
@@ -42,7 +42,7 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
     for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinAdded)
         ++rounds;
     return std::uint64_t(double(lumels) *
-                         (rays * kLinkBytes + (rays - std::min(rays, kFirst)) * kChanceBytes +
+                         (rays * kLinkBytes + (rays - std::min(rays, kFirst)) * kProbabilityBytes +
                           rounds * kSolutions * kRowBytes));
 }
 
@@ -80,8 +80,9 @@ double LinkRadiosity::rays_that_fit() const
     for (const std::optional<LinkTable>& links : links_)
         taken += double(links->bytes());
     const auto lumels = double(work_.order.size());
-    const double of_ray = state_.shots > 0 ? taken / double(state_.shots) + lumels * kChanceBytes
-                                           : lumels * kLinkBytes;
+    const double of_ray = state_.shots > 0
+                              ? taken / double(state_.shots) + lumels * kProbabilityBytes
+                              : lumels * kLinkBytes;
     const double rows = lumels * (kSolutions * kRowBytes + kGuideBytes);
     return std::max(double(most_bytes_) - taken - rows, 0.0) / (kSolutions * of_ray);
 }

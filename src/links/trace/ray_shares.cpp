@@ -59,7 +59,8 @@ std::vector<double> LinkRadiosity::gain_of_guide(const std::vector<double>& sent
         const std::uint32_t i = work_.order[o];
         const double first = double(links_[0]->rounds.front()[o / kLinkBlock].rays[o % kLinkBlock]);
         const double even = std::min(first / std::max(sent[i], 1.0), 1.0);
-        gain[i] = even * std::min(double(guide_.gain[guide_.group[i]]), kMostGain) + 1.0 - even;
+        gain[i] =
+            even * std::min(double(guide_.tables[guide_.group[i]].gain), kMostGain) + 1.0 - even;
     }
     return gain;
 }

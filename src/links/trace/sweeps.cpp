@@ -50,7 +50,7 @@ void add_row(const LinkRow& row, const SubLumels& parts, std::size_t i,
     if (row.from) {
         for (std::size_t k = 0; k < row.ends.size(); ++k)
             sums[row.leaves(parts, i, k)] += row.weight(k) * sent[row.ends[k].number()];
-    } else if (row.chances) {
+    } else if (row.probabilities) {
         glm::vec4 sum = sums[0];
         for (std::size_t k = 0; k < row.ends.size(); ++k)
             sum += row.weight(k) * sent[row.ends[k].number()];

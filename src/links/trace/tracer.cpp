@@ -81,11 +81,11 @@ struct LinkTracer::SkyRay {
 struct LinkTracer::RayBatch {
     // Results, in slots of the batch.
     std::vector<std::uint32_t> lumels;
-    std::vector<LumelSamples> samples;        ///< [lumels] of their rays
-    std::vector<std::uint32_t> slots_before;  ///< [lumels + 1]
-    std::vector<LinkEnd> ends;                ///< [slots]
-    std::vector<std::uint8_t> from;           ///< [slots] cells that the rays leave
-    std::vector<std::uint16_t> chances;       ///< [slots] of guided directions
+    std::vector<LumelSamples> samples;         ///< [lumels] of their rays
+    std::vector<std::uint32_t> slots_before;   ///< [lumels + 1]
+    std::vector<LinkEnd> ends;                 ///< [slots]
+    std::vector<std::uint8_t> from;            ///< [slots] cells that the rays leave
+    std::vector<std::uint16_t> probabilities;  ///< [slots] of guided directions
     std::vector<SkyRay> sky;
     std::vector<Path> paths;  ///< by slot
 
@@ -115,7 +115,7 @@ struct LinkTracer::RayBatch {
         slots_before.assign(1, 0);
         ends.clear();
         from.clear();
-        chances.clear();
+        probabilities.clear();
         sky.clear();
         paths.clear();
         rays.clear();
@@ -179,7 +179,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         sending.known ? sending.known->of(i, rays) : std::span<const LinkEnd>();
     std::optional<GuidedDraw> guided;
     if (sending.guide)
-        guided.emplace(sending.guide->chances[sending.guide->group[i]]);
+        guided.emplace(sending.guide->tables[sending.guide->group[i]].probabilities);
     std::optional<SeenCells> seen;  // made for the first ray that needs it
     glm::vec3 axis(0.0f);
     glm::mat3 frame(0.0f);
@@ -188,7 +188,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         std::optional<GuidedDraw::Drawn> drawn;
         if (guided) {
             drawn = (*guided)(samples.stratified(kDirectionPair));
-            wave.chances.push_back(guided->chance(drawn->bin));
+            wave.probabilities.push_back(guided->probability(drawn->bin));
         }
         std::optional<LinkEnd> end;
         if (!known.empty())
@@ -524,15 +524,17 @@ void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
                                       path->light});
         for (; sky != wave.sky.end() && sky->slot < end; ++sky)
             into.sky[parts_.part(i, wave.from[sky->slot])] +=
-                (wave.chances.empty() ? 1.0f : RayGuide::weight(wave.chances[sky->slot])) *
+                (wave.probabilities.empty() ? 1.0f
+                                            : RayGuide::weight(wave.probabilities[sky->slot])) *
                 sky->light;
         if (parts_.is_cut(i))
             block.from.insert(block.from.end(), wave.from.begin() + begin, wave.from.begin() + end);
         block.rays.push_back(std::uint16_t(end - begin));
         block.ends.insert(block.ends.end(), wave.ends.begin() + begin, wave.ends.begin() + end);
-        if (!wave.chances.empty())
-            block.chances.insert(block.chances.end(), wave.chances.begin() + begin,
-                                 wave.chances.begin() + end);
+        if (!wave.probabilities.empty())
+            block.probabilities.insert(block.probabilities.end(),
+                                       wave.probabilities.begin() + begin,
+                                       wave.probabilities.begin() + end);
     }
 }
 
@@ -593,10 +595,10 @@ void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sendi
         block.ends.shrink_to_fit();
         block.from.shrink_to_fit();
         block.near.shrink_to_fit();
-        block.chances.shrink_to_fit();
-        const auto is_even = [](std::uint16_t chance) { return chance == RayGuide::kEven; };
-        if (std::ranges::all_of(block.chances, is_even))
-            block.chances = {};
+        block.probabilities.shrink_to_fit();
+        const auto is_uniform = [](std::uint16_t one) { return one == RayGuide::kUniform; };
+        if (std::ranges::all_of(block.probabilities, is_uniform))
+            block.probabilities = {};
     }
 }
 

@@ -49,7 +49,7 @@ public:
         const std::vector<std::uint16_t>& rays;  ///< [N]; powers of two stratify best
         std::uint32_t stream;                    ///< random stream
         const SharedDirections* shared;          ///< null: every lumel has its own directions
-        const RayGuide* guide = nullptr;         ///< null: rays are even
+        const RayGuide* guide = nullptr;         ///< null: rays are uniform
         std::optional<Known> known = {};         ///< traces only what can have changed
     };
     /// Traces blocks [first, last) into the last round of `into`.

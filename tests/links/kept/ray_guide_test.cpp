@@ -15,7 +15,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kSolutionsOfTest = 3;
 /// Points in the unit square, evenly distributed.
 constexpr std::uint32_t kPoints = 1u << 18;
 
@@ -26,14 +25,14 @@ void for_each_point(const Visit& visit)
         visit(PathSamples(1, n).stratified(0));
 }
 
-/// What even rays see of `light`.
+/// What uniform rays tell of `light`.
 template <class Light>
-std::optional<GuideMoments::Found> learnt_from(const Light& light)
+std::optional<RayGuide::Table> learnt_from(const Light& light)
 {
-    GuideMoments moments(kSolutionsOfTest);
+    GuideMoments moments;
     std::size_t k = 0;
     for_each_point([&](const glm::vec2& point) {
-        moments.add(k++ % kSolutionsOfTest, RayGuide::bin_of(point), light(point));
+        moments.add(k++ % kSolutions, RayGuide::bin_of(point), light(point));
     });
     return moments.find();
 }
@@ -44,11 +43,11 @@ double patch(const glm::vec2& point)
     return glm::distance(point, {0.3f, 0.7f}) < 0.0564f ? 100.0 : 0.5;
 }
 
-TEST(RayGuide, DrawsEachBinAsOftenAsItsChanceSays)
+TEST(RayGuide, DrawsEachBinAsOftenAsItsProbabilitySays)
 {
-    const std::optional<GuideMoments::Found> found = learnt_from(patch);
+    const std::optional<RayGuide::Table> found = learnt_from(patch);
     ASSERT_TRUE(found);
-    const GuidedDraw draw(found->chances);
+    const GuidedDraw draw(found->probabilities);
     std::vector<double> count(RayGuide::kBins, 0.0);
     for_each_point([&](const glm::vec2& uniform) {
         const GuidedDraw::Drawn drawn = draw(uniform);
@@ -56,16 +55,16 @@ TEST(RayGuide, DrawsEachBinAsOftenAsItsChanceSays)
         count[drawn.bin] += 1.0 / kPoints;
     });
     for (std::uint32_t b = 0; b < RayGuide::kBins; ++b) {
-        const double wanted = double(found->chances[b]) / RayGuide::kAll;
+        const double wanted = double(found->probabilities[b]) / RayGuide::kOne;
         EXPECT_NEAR(count[b], wanted, 0.02 * wanted + 2e-5) << b;
     }
 }
 
 TEST(RayGuide, KeepsTheMeanAndLowersTheVariance)
 {
-    const std::optional<GuideMoments::Found> found = learnt_from(patch);
+    const std::optional<RayGuide::Table> found = learnt_from(patch);
     ASSERT_TRUE(found);
-    const GuidedDraw draw(found->chances);
+    const GuidedDraw draw(found->probabilities);
     const auto moments = [](const auto& sample) {
         glm::dvec2 sums(0.0);
         for_each_point([&](const glm::vec2& uniform) {
@@ -77,7 +76,7 @@ TEST(RayGuide, KeepsTheMeanAndLowersTheVariance)
     const glm::dvec2 even = moments(patch),
                      guided = moments([&](const glm::vec2&uniform) {
                          const GuidedDraw::Drawn drawn = draw(uniform);
-                         return double(RayGuide::weight(found->chances[drawn.bin])) *
+                         return double(RayGuide::weight(found->probabilities[drawn.bin])) *
                                 patch(drawn.point);
                      });
     EXPECT_NEAR(guided.x, even.x, 0.005 * even.x);
@@ -85,7 +84,7 @@ TEST(RayGuide, KeepsTheMeanAndLowersTheVariance)
     EXPECT_NEAR(found->gain, even.y / guided.y, 0.1 * found->gain);
 }
 
-TEST(RayGuide, LeavesEvenLightToEvenRays)
+TEST(RayGuide, LeavesEvenLightToUniformRays)
 {
     EXPECT_FALSE(learnt_from([](const glm::vec2&) { return 3.0; }));
     EXPECT_FALSE(learnt_from([](const glm::vec2& point) { return 1.0 + 0.5 * double(point.y); }));
@@ -94,32 +93,31 @@ TEST(RayGuide, LeavesEvenLightToEvenRays)
 /// One ray of a solution found a lamp that those of the others missed: nothing is known of it.
 TEST(RayGuide, DoesNotFollowWhatOneSolutionAloneHasSeen)
 {
-    GuideMoments moments(kSolutionsOfTest);
-    for (std::size_t k = 0; k < kSolutionsOfTest; ++k)
+    GuideMoments moments;
+    for (std::size_t k = 0; k < kSolutions; ++k)
         for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
             moments.add(k, b, 1.0);
     moments.add(0, 17, 1000.0);
     EXPECT_FALSE(moments.find());
 }
 
-TEST(RayGuide, RefusesChancesThatNoRayCouldHave)
+TEST(RayGuide, RefusesProbabilitiesThatNoRayCouldHave)
 {
-    RayGuide guide{{0, 0}, {{}}, {1.0f}};
-    guide.chances[0].fill(std::uint16_t(RayGuide::kEven));
+    RayGuide guide{{0, 0}, {RayGuide::uniform()}};
     EXPECT_TRUE(guide.fits(2));
     EXPECT_FALSE(guide.fits(3));
     guide.group[1] = 1;
     EXPECT_FALSE(guide.fits(2));
     guide.group[1] = 0;
-    guide.gain[0] = std::numeric_limits<float>::quiet_NaN();
+    guide.tables[0].gain = std::numeric_limits<float>::quiet_NaN();
     EXPECT_FALSE(guide.fits(2));
-    guide.gain[0] = 1.0f;
-    guide.chances[0][5] = 0;
+    guide.tables[0].gain = 1.0f;
+    guide.tables[0].probabilities[5] = 0;
     EXPECT_FALSE(guide.fits(2));
 }
 
-/// Light of the first bounce and the sky, in a room with a lamp, by even rays and by rays of
-/// wildly uneven chances.
+/// Light of the first bounce and the sky, in a room with a lamp, by uniform rays and by rays of
+/// wildly uneven probabilities.
 TEST(RayGuide, UnevenRaysBringTheSameLight)
 {
     const SolveScene scene(support::source_path("scenes/room.gltf"), {.size = 128});
@@ -132,9 +130,9 @@ TEST(RayGuide, UnevenRaysBringTheSameLight)
     const LinkNumbers numbers(scene.scene.instances.size(), parts.count());
     const LinkTracer tracer(work, parts, numbers, direct, 1);
 
-    RayGuide guide{std::vector<std::uint32_t>(work.order.size(), 0), {{}}, {1.0f}};
+    RayGuide guide{std::vector<std::uint32_t>(work.order.size(), 0), {RayGuide::uniform()}};
     for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
-        guide.chances[0][b] = std::uint16_t(b % 2 == 0 ? 64 : 448);
+        guide.tables[0].probabilities[b] = std::uint16_t(b % 2 == 0 ? 64 : 448);
     ASSERT_TRUE(guide.fits(work.order.size()));
 
     const std::vector<std::uint16_t> each(work.order.size(), 64);

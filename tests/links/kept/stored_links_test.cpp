@@ -36,9 +36,10 @@ constexpr LinksOptions kOptions{.seed = 1, .even_rays = 24};
 
 /// A scene and its light, over links of a former run or its own.
 struct Lit {
-    explicit Lit(Scene scene, const StoredLinks* kept = nullptr)
-        : prepared(std::move(scene), AtlasOptions{.size = kSide}),
-          light(prepared, kOptions, {})
+    explicit Lit(Scene scene, const StoredLinks* kept = nullptr, int side = kSide,
+                 const LinksOptions& options = kOptions, const SolveLimits& limits = {})
+        : prepared(std::move(scene), AtlasOptions{.size = side}),
+          light(prepared, options, limits)
     {
         solve(kept);
     }
@@ -62,6 +63,13 @@ struct Lit {
     SolveScene prepared;
     LinkRadiosity light;
 };
+
+/// Two rounds or more, of which the later ones are guided through a door.
+Lit two_rooms(const StoredLinks* kept = nullptr, int side = kSide)
+{
+    return Lit(read_gltf(support::source_path("scenes/two-rooms.gltf")), kept, side, {.seed = 1},
+               {.target_error = 0.02});
+}
 
 std::size_t different_links(const StoredLinks& one, const StoredLinks& other)
 {
@@ -218,6 +226,49 @@ TEST(KeptLight, OverLinksOfAnotherSeedTracesAllOfThem)
     kept.seed = 2;
     const Lit over(test::open_box(), &kept);
     EXPECT_EQ(over.light.traced(), Lit(test::open_box()).light.traced());
+}
+
+TEST(KeptLight, OverGuidedLinksIsThatOfTracingThemAgain)
+{
+    const Lit before = two_rooms();
+    const StoredLinks kept = through_a_file(before.kept());
+    ASSERT_FALSE(kept.guide.empty());
+    ASSERT_GT(kept.rounds.size(), 1u);
+    const Lit over = two_rooms(&kept);
+    EXPECT_EQ(over.light.traced(), near_links(kept));
+    EXPECT_EQ(different_links(over.kept(), kept), 0u);
+    EXPECT_EQ(over.light.irradiance(), before.light.irradiance());
+}
+
+/// Its lumels are others than those that the guide was learnt for.
+TEST(KeptLight, OverGuidedLinksOfAnotherAtlasIsNotGuided)
+{
+    const StoredLinks kept = two_rooms().kept();
+    ASSERT_FALSE(kept.guide.empty());
+    const Lit over = two_rooms(&kept, 2 * kSide);
+    EXPECT_GT(over.prepared.lumels.lumels.size(), kept.lumels.size());
+    EXPECT_TRUE(over.kept().guide.empty());
+}
+
+TEST(KeptLinks, TakeTheirGuideAlongWhenLumelsGetOtherNumbers)
+{
+    const StoredLinks kept = two_rooms().kept();
+    const std::size_t lumels = kept.lumels.size(), instances = kept.instances.size();
+    Renumbering now{.lumels_now = lumels + 1, .instances_now = instances};
+    for (std::uint32_t i = 0; i < instances; ++i)
+        now.instances.push_back(i);
+    for (std::uint32_t i = 0; i < lumels; ++i)  // one before all others is new
+        now.lumels.push_back(i + 1);
+    const RayGuide moved = renumbered(kept, now).guide;
+    ASSERT_TRUE(moved.fits(lumels + 1));
+    EXPECT_EQ(moved.group[0], 0u);
+    for (std::size_t i = 0; i < lumels; ++i)
+        EXPECT_EQ(moved.group[i + 1], kept.guide.group[i]);
+    ASSERT_EQ(moved.tables.size(), kept.guide.tables.size());
+    for (std::size_t g = 0; g < moved.tables.size(); ++g) {
+        EXPECT_EQ(moved.tables[g].probabilities, kept.guide.tables[g].probabilities);
+        EXPECT_EQ(moved.tables[g].gain, kept.guide.tables[g].gain);
+    }
 }
 
 TEST(KeptLinks, ComeBackFromAFileAsTheyWere)

@@ -78,17 +78,17 @@ std::vector<Link> links_of(const TracedRoom& room)
                     const std::uint32_t cell =
                         room.parts.is_cut(lumel) ? round[b].from[left++] : 0u;
                     const std::uint32_t from = room.parts.part(lumel, cell);
-                    const double of_chance =
-                        round[b].chances.empty()
+                    const double of_ray =
+                        round[b].probabilities.empty()
                             ? 1.0
-                            : double(RayGuide::kEven) / double(round[b].chances[slot]);
+                            : double(RayGuide::kUniform) / double(round[b].probabilities[slot]);
                     const std::vector<NearLink>& by_slot = round[b].near;
                     if (near < by_slot.size() && by_slot[near].slot == slot) {
                         add(from, by_slot[near].end,
-                            of_chance * glm::dvec3(glm::unpackF3x9_E1x5(by_slot[near].weight)));
+                            of_ray * glm::dvec3(glm::unpackF3x9_E1x5(by_slot[near].weight)));
                         ++near;
                     } else {
-                        add(from, round[b].ends[slot], glm::dvec3(of_chance));
+                        add(from, round[b].ends[slot], glm::dvec3(of_ray));
                     }
                 }
             }
@@ -150,9 +150,9 @@ TEST(LinkSolver, SolvesRoundsOfWeightedLinks)
 {
     constexpr double kSolved = 5e-3;
     TracedRoom room;
-    RayGuide guide{std::vector<std::uint32_t>(room.work.order.size(), 0), {{}}, {1.0f}};
+    RayGuide guide{std::vector<std::uint32_t>(room.work.order.size(), 0), {RayGuide::uniform()}};
     for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
-        guide.chances[0][b] = std::uint16_t(b % 2 == 0 ? 128 : 384);
+        guide.tables[0].probabilities[b] = std::uint16_t(b % 2 == 0 ? 128 : 384);
     room.add_round(16);
     room.add_round(16, &guide);
     EXPECT_LE(distance_from_limit(room), kSolved);
