@@ -230,11 +230,11 @@ TEST(KeptLight, OverLinksOfAnotherSeedTracesAllOfThem)
 
 TEST(KeptLight, OverGuidedLinksIsThatOfTracingThemAgain)
 {
-    const Lit before = two_rooms();
+    Lit before = two_rooms();
     const StoredLinks kept = through_a_file(before.kept());
     ASSERT_FALSE(kept.guide.empty());
     ASSERT_GT(kept.rounds.size(), 1u);
-    const Lit over = two_rooms(&kept);
+    Lit over = two_rooms(&kept);
     EXPECT_EQ(over.light.traced(), near_links(kept));
     EXPECT_EQ(different_links(over.kept(), kept), 0u);
     EXPECT_EQ(over.light.irradiance(), before.light.irradiance());
