@@ -3,8 +3,10 @@
 #include "../support/temporary_folder.h"
 #include "atlas/finish/finish.h"
 #include "atlas/lumels/sides.h"
+#include "base/images/image_files.h"
 #include "jobs/edit/solution_file.h"
 #include "paper_house.h"
+#include "results/record/bake_record.h"
 #include "solved.h"
 
 namespace lumel {
@@ -180,6 +182,31 @@ TEST(Sides, AreFoundAgainInTheSolutionAndOutsideOfItRefused)
         write_solution(path, lumels, light, house.open);
         EXPECT_THROW(read_solution(path), Error);
     }
+}
+
+TEST(Sides, HaveTheirErrorsWhereTheMapShowsThem)
+{
+    const SolveScene house(house_under_sky(), AtlasOptions{.size = 96});
+    const Lumels& lumels = house.lumels;
+    std::vector<float> error;
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i)
+        error.push_back(is_back(lumels.lumels[i]) ? 0.5f : 0.25f);
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "solution.exr";
+    const std::vector<glm::vec3> light(error.size(), glm::vec3(1.0f));
+    write_solution(path, lumels, light, house.open);
+    EXPECT_FALSE(has_layer(path, kErrorLayer));
+    write_solution(path, lumels, light, house.open, error);
+    ASSERT_TRUE(has_layer(path, kErrorLayer));
+    const Image map = read_exr(path, kErrorLayer);
+    std::size_t backs = 0;
+    for (std::size_t i = 0; i < error.size(); ++i) {
+        if (lumels.lumels[i].instance >= kFirstOfBlock)
+            continue;
+        EXPECT_EQ(map.values[4 * map_texel(lumels, lumels.lumels[i])], error[i]);
+        backs += is_back(lumels.lumels[i]) ? 1 : 0;
+    }
+    EXPECT_GT(backs, 0u);
 }
 
 TEST(Sides, ShareNoTexel)

@@ -36,8 +36,8 @@ async function probe(points) {
         const box = canvas.getBoundingClientRect();
         canvas.dispatchEvent(new PointerEvent('pointermove',
             { clientX: box.left + x * box.width, clientY: box.top + y * box.height }));
-        const { lux, u, v, bake } = reading.dataset;
-        return { text: reading.textContent, lux: Number(lux), u: Number(u), v: Number(v), bake };
+        const { lux, error, u, v, bake } = reading.dataset;
+        return { text: reading.textContent, lux: Number(lux), error: Number(error), u: Number(u), v: Number(v), bake };
     }
     // The colours that are shown at all points.
     async function shown() {
@@ -64,7 +64,7 @@ async function probe(points) {
         sections: [...document.querySelectorAll('h2')].map((heading) => heading.textContent) };
     if (root.dataset.state === 'ready') {
         found.readings = points.map(readAt);
-        for (const mode of ['lit', 'light', 'lux']) found[mode] = await choose(mode);
+        for (const mode of ['lit', 'light', 'error', 'lux']) found[mode] = await choose(mode);
         const slider = document.getElementById('slider');
         if (!slider.hidden) found.slid = [await slide(0), await slide(1)];
     }

@@ -167,13 +167,37 @@ void write_exr(const std::string& path, const Image& image, Precision precision,
     write_bytes(path, stream.bytes);
 }
 
-Image read_exr(const std::string& path, const std::string& layer)
+namespace {
+
+/// Calls read(file) for the opened file.
+template <class Read>
+auto from_exr(const std::string& path, const Read& read)
 {
     try {
         const Bytes bytes = read_file(path, path);
         check_exr_claims(bytes, path);
         MemoryFile stream(path, bytes);
         Imf::InputFile file(stream);
+        return read(file);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw Error(ErrorKind::input, path, std::string("cannot be read as EXR: ") + error.what());
+    }
+}
+
+}  // namespace
+
+bool has_layer(const std::string& path, const std::string& layer)
+{
+    return from_exr(path, [&](const Imf::InputFile& file) {
+        return file.header().channels().findChannel(channel_name(layer, 0)) != nullptr;
+    });
+}
+
+Image read_exr(const std::string& path, const std::string& layer)
+{
+    return from_exr(path, [&](Imf::InputFile& file) {
         const Imath::Box2i window = file.header().dataWindow();
         for (int c = 0; c < 3; ++c)
             if (!file.header().channels().findChannel(channel_name(layer, c)))
@@ -190,11 +214,7 @@ Image read_exr(const std::string& path, const std::string& layer)
         file.setFrameBuffer(frame);
         file.readPixels(window.min.y, window.max.y);
         return image;
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw Error(ErrorKind::input, path, std::string("cannot be read as EXR: ") + error.what());
-    }
+    });
 }
 
 std::string openexr_version()

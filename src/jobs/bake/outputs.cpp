@@ -151,7 +151,7 @@ Image baked_texture(const BakeOptions& options, const SolveScene& prepared, cons
 
 WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
                          const SolveScene& prepared, const gpu::Device* device,
-                         const std::vector<glm::vec3>& irradiance,
+                         const std::vector<glm::vec3>& irradiance, const std::vector<float>& error,
                          const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages)
 {
     const DirectionalMaps maps = finish_directional(prepared, irradiance, coefficients);
@@ -176,7 +176,7 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
     drawn.reset();
     write_map(folder, kLightmapName, map, options.half, prepared, stages, written.exposure,
               maps.layers);
-    write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open);
+    write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open, error);
     // If only indirect light is baked, viewers add direct light of lamps themselves.
     write_scene_glb(folder.path(kSceneFile), prepared.scene, prepared.atlas, map,
                     {.keep = options.keep_lights || options.parts == Parts::indirect,
@@ -193,8 +193,9 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const S
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages)
 {
-    const WrittenLight written = write_light(folder, options, prepared, &device, irradiance,
-                                             results.directional.coefficients, stages);
+    const WrittenLight written =
+        write_light(folder, options, prepared, &device, irradiance, solver.error_estimate(),
+                    results.directional.coefficients, stages);
     stages.end();
     device.check_validation();
 

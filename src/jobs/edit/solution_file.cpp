@@ -6,6 +6,7 @@
 #include "atlas/lumels/sides.h"
 #include "base/core/error.h"
 #include "base/images/image_files.h"
+#include "results/record/bake_record.h"
 
 namespace lumel {
 namespace {
@@ -29,6 +30,16 @@ void set_shift(const Lumels& lumels, const Lumel& lumel, Image& image)
         for (int c = 0; c < 2; ++c)
             shift[c] = float(lumels.back_shift[lumel.chart][c]);
     shift[2] = lumels.shows_front ? 1.0f : 0.0f;
+}
+
+Image error_map(const Lumels& lumels, const std::vector<float>& error)
+{
+    Image map(lumels.width, lumels.height, 4);
+    for (std::size_t i = 0; i < error.size(); ++i) {
+        float& shown = map.values[std::size_t(map_texel(lumels, lumels.lumels[i])) * 4];
+        shown = std::max(shown, error[i]);
+    }
+    return map;
 }
 
 [[noreturn]] void fail_damaged(const std::string& path)
@@ -77,7 +88,8 @@ StoredCharts charts_of(const Image& front, const Image& shift, const std::string
 }  // namespace
 
 void write_solution(const std::string& path, const Lumels& lumels,
-                    const std::vector<glm::vec3>& irradiance, const std::vector<float>& open)
+                    const std::vector<glm::vec3>& irradiance, const std::vector<float>& open,
+                    const std::vector<float>& error)
 {
     Image front(lumels.width, lumels.height, 4), back = front, shares = front, shift = front;
     for (std::size_t i = 0; i < irradiance.size(); ++i) {
@@ -93,6 +105,8 @@ void write_solution(const std::string& path, const Lumels& lumels,
     layers.push_back({kBackLayer, std::move(back)});
     layers.push_back({kOpenLayer, std::move(shares)});
     layers.push_back({kShiftLayer, std::move(shift)});
+    if (!error.empty())
+        layers.push_back({kErrorLayer, error_map(lumels, error)});
     write_exr(path, front, Precision::float32,
               {{"quantity", "irradiance of lumels, before gutters and seams"},
                {"unit", "lx"},

@@ -31,8 +31,8 @@ constexpr std::uint64_t kJsonValueBytes = 100, kJsonValues = 30;
 constexpr std::uint64_t kWrittenVertexBytes = 40, kWrittenIndexBytes = sizeof(std::uint32_t);
 /// Compressing a float image needs about its size again; 8-bit images have three channels.
 constexpr std::uint64_t kOfTexel = sizeof(glm::vec4), kOfRgb = sizeof(glm::vec3), kOfPng = 3;
-/// Layers of solution.exr.
-constexpr std::uint64_t kSolutionLayers = 4;
+/// Layers of solution.exr, the main image among them.
+constexpr std::uint64_t kSolutionLayers = 5;
 /// Maximum image size assumed before the view is known.
 constexpr int kMaxPictureSide = 1 << 14;
 

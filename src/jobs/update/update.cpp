@@ -203,7 +203,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
                                 .preview_width = options.preview_width};
         output.outdate(kMatrixFile);
         written = write_light(output, files, edit.now, device ? &*device : nullptr, irradiance, {},
-                              stages);
+                              {}, stages);
     }
     if (kept) {
         kept->scene_hash = edit.now.scene.hash;

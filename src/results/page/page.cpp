@@ -1,6 +1,7 @@
 #include "results/page/page.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <string_view>
@@ -16,17 +17,19 @@
 #include "results/files/glb_builder.h"
 #include "results/page/packed_text.h"
 #include "results/page/viewer.h"
+#include "results/record/bake_record.h"
 
 namespace lumel {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kReport = "report.json", *kScene = "scene.glb";
 constexpr const char* kLightmap = "MOZ_lightmap";
 
 /// Maximum texel value: shared exponents hold 65408, and have all their digits down to 2^-15.
 constexpr float kBrightestTexel = 1000.0f;
+/// Errors below this are shown as this.
+constexpr float kLeastError = 1e-4f;
 
 /// scene.glb without its lightmap: the page has its own.
 std::vector<std::uint8_t> without_lightmap(const std::string& path)
@@ -79,6 +82,26 @@ std::pair<std::vector<unsigned char>, float> small_lightmap(Image map)
     return {encode_ktx2(map, FloatTexel::shared_exponent), unit};
 }
 
+/// Estimated errors of the map's texels as bytes, e = kLeastError (1 / kLeastError)^((b - 1) /
+/// 254); 0: none. Empty if the bake has no estimate.
+std::vector<std::uint8_t> error_bytes(const std::string& solution, const Image& map)
+{
+    if (!fs::exists(solution) || !has_layer(solution, kErrorLayer))
+        return {};
+    const Image errors = read_exr(solution, kErrorLayer);
+    if (errors.width != map.width || errors.height != map.height)
+        throw Error(ErrorKind::input, solution, "has another size than the lightmap");
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(errors.values.size() / 4);
+    for (std::size_t i = 0; i < errors.values.size(); i += 4) {
+        const float error = errors.values[i];
+        const float place =
+            1.0f - std::log(std::clamp(error, kLeastError, 1.0f)) / std::log(kLeastError);
+        bytes.push_back(error > 0.0f ? std::uint8_t(std::lround(1.0f + 254.0f * place)) : 0);
+    }
+    return bytes;
+}
+
 int pages_in(const std::optional<JsonView>& sizes)
 {
     const auto pages = sizes ? sizes->find("pages") : std::nullopt;
@@ -89,15 +112,19 @@ int pages_in(const std::optional<JsonView>& sizes)
 Json page_data(const std::string& folder, const std::string& name)
 {
     const auto in_folder = [&](const char* file) { return (fs::path(folder) / file).string(); };
-    const Json report = read_json(in_folder(kReport));
+    const Json report = read_json(in_folder(kReportFile));
     const Pages pages{pages_in(JsonView(folder, report).find("sizes")), 0};
-    const auto [lightmap, unit] = small_lightmap(whole_map(folder, pages));
+    Image map = whole_map(folder, pages);
+    const std::vector<std::uint8_t> errors = error_bytes(in_folder(kSolutionFile), map);
+    const auto [lightmap, unit] = small_lightmap(std::move(map));
     return {{"name", name},
             {"report", report},
             {"pages_across", pages.across()},
-            {"glb", packed_text(without_lightmap(in_folder(kScene)))},
+            {"glb", packed_text(without_lightmap(in_folder(kSceneFile)))},
             {"lightmap", packed_text(lightmap)},
-            {"unit", shortest(unit)}};
+            {"unit", shortest(unit)},
+            {"errors", packed_text(errors)},
+            {"least_error", shortest(kLeastError)}};
 }
 
 /// Names of the bakes: their folders' names, or their paths if these are equal.

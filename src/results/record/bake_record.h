@@ -20,6 +20,8 @@ namespace lumel {
 /// Files of a finished bake that are read again.
 inline constexpr const char *kReportFile = "report.json", *kSceneFile = "scene.glb",
                             *kSolutionFile = "solution.exr", *kPreview = "preview.png";
+/// Layer of solution.exr, see write_solution().
+inline constexpr const char* kErrorLayer = "error";
 /// Output of lumel report and lumel probes, outdated by a new bake.
 inline constexpr const char *kPageFile = "report.html", *kProbesFile = "probes.json";
 

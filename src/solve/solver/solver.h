@@ -27,6 +27,9 @@ public:
     /// Instances whose visible noise is above the target, noisiest first; empty for methods that do
     /// not estimate it.
     virtual std::vector<NoisySurface> noisy_surfaces() const { return {}; }
+    /// [N] Estimated error of each lumel relative to its light, 0…1; empty for methods that do not
+    /// estimate it.
+    virtual std::vector<float> error_estimate() const { return {}; }
     /// Total GPU time per stage [ms].
     virtual const gpu::StageTimes& times() const = 0;
     /// Longest submission [ms].

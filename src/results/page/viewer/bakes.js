@@ -3,6 +3,7 @@
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { makeDiffuse } from '../../../../examples/threejs/lightmap.js';
+import { ErrorMap } from './errors.js';
 import { readLightmap } from './lightmap.js';
 
 // Unpacks base64 of gzip.
@@ -54,12 +55,15 @@ function firstView(gltf, preview) {
 }
 
 /** One baked folder: its report, its scene lit by its lightmap, and the first view. */
-async function readBake(renderer, { name, report, glb, lightmap, unit, pages_across: pagesAcross }) {
+async function readBake(renderer, { name, report, glb, lightmap, unit, pages_across: pagesAcross, errors,
+    least_error: leastError }) {
     const map = await readLightmap(renderer, await unpack(lightmap), unit, pagesAcross);
+    const errorBytes = new Uint8Array(await unpack(errors));
     const gltf = await new GLTFLoader().parseAsync(await unpack(glb), '');
     makeDiffuse(gltf);
     return {
         name, report, map,
+        errors: errorBytes.length > 0 ? new ErrorMap(errorBytes, map.width, map.height, leastError) : null,
         scene: gltf.scene,
         lit: bindLightmap(gltf.scene, map),
         exposure: gltf.asset.extras?.lumel?.exposure ?? report.solution.exposure ?? 1, // [1/lx]

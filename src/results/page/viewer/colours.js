@@ -1,4 +1,4 @@
-// Illuminance as a colour: blue to yellow, on a logarithmic scale.
+// Illuminance and errors as colours: blue to yellow, on logarithmic scales.
 
 import * as THREE from 'three';
 
@@ -19,21 +19,14 @@ export function colourAt(place) {
         Math.round(value + (at - low) * (anchors[low + 1][channel] - value)));
 }
 
-/** Range of the scale: the 2nd to 99.5th percentile of the lit texels, rounded. [lx] */
 export class Scale {
-    constructor(maps) {
-        const lit = maps.flatMap((map) => map.sampleOfLux()).filter((lux) => lux > 0).sort((a, b) => a - b);
-        const part = (share) => lit[Math.floor(share * (lit.length - 1))] ?? 1;
-        this.high = roundUp(part(0.995));
-        this.low = Math.min(Math.max(roundUp(part(0.02)) / 2, this.high / 1e4), this.high / 10);
+    /** Values from low to high. quantity: that of a reading which it shows; text: says a value. */
+    constructor(low, high, quantity, text) {
+        Object.assign(this, { low, high, quantity, text });
     }
 
-    placeOf(lux) {
-        return Math.log(Math.max(lux, 1e-9) / this.low) / Math.log(this.high / this.low);
-    }
-
-    luxAt(place) {
-        return this.low * (this.high / this.low) ** place;
+    placeOf(value) {
+        return Math.log(Math.max(value, 1e-9) / this.low) / Math.log(this.high / this.low);
     }
 
     /** Numbers of the form 1, 2 and 5 times a power of ten in its range. */
@@ -41,8 +34,8 @@ export class Scale {
         const found = [];
         for (let decade = Math.floor(Math.log10(this.low)); decade <= Math.log10(this.high); ++decade)
             for (const digit of [1, 2, 5]) {
-                const lux = digit * 10 ** decade;
-                if (lux >= this.low * 0.999 && lux <= this.high * 1.001) found.push(lux);
+                const value = digit * 10 ** decade;
+                if (value >= this.low * 0.999 && value <= this.high * 1.001) found.push(value);
             }
         return found;
     }
@@ -57,6 +50,20 @@ export class Scale {
         return texture;
     }
 }
+
+/** Of illuminance: from the 2nd to the 99.5th percentile of the lit texels, rounded. */
+export function scaleOfLight(maps) {
+    const lit = maps.flatMap((map) => map.sampleOfLux()).filter((lux) => lux > 0).sort((a, b) => a - b);
+    const part = (share) => lit[Math.floor(share * (lit.length - 1))] ?? 1;
+    const high = roundUp(part(0.995));
+    return new Scale(Math.min(Math.max(roundUp(part(0.02)) / 2, high / 1e4), high / 10), high, 'lux', luxText);
+}
+
+/** Of relative errors: from one that no eye sees to one that all do. */
+export const scaleOfErrors = () => new Scale(0.001, 0.2, 'error', percentText);
+
+/** A fraction in percent. */
+export const percentText = (part) => `${Number((100 * part).toPrecision(2))} %`;
 
 /** A number of lux as text. */
 export function luxText(lux) {

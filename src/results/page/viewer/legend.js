@@ -1,6 +1,6 @@
 // The legend of false colours, with a mark at the value under the mouse.
 
-import { colourAt, luxText } from './colours.js';
+import { colourAt } from './colours.js';
 
 const bar = { top: 8, height: 14 }, gap = 6; // [CSS pixels]
 
@@ -11,8 +11,14 @@ export class Legend {
         new ResizeObserver(() => this.draw()).observe(canvas);
     }
 
-    /** marks: illuminances to mark. [lx] */
-    draw(marks = []) {
+    /** Shows another scale. */
+    show(scale) {
+        this.scale = scale;
+        this.draw();
+    }
+
+    /** reading: light and error to mark, the one that the scale is for. */
+    draw(reading = {}) {
         const { clientWidth: width, clientHeight: height } = this.canvas;
         const ratio = window.devicePixelRatio;
         this.canvas.width = width * ratio;
@@ -26,15 +32,17 @@ export class Legend {
         context.fillStyle = getComputedStyle(this.canvas).color;
         context.font = '12px system-ui, sans-serif';
         let free = 0; // minimum position of the next number
-        for (const lux of this.scale.ticks()) {
-            const x = this.scale.placeOf(lux) * width, text = luxText(lux), long = context.measureText(text).width;
+        for (const value of this.scale.ticks()) {
+            const x = this.scale.placeOf(value) * width, text = this.scale.text(value);
+            const long = context.measureText(text).width;
             const left = Math.min(Math.max(x - long / 2, 0), width - long);
             context.fillRect(x, bar.top + bar.height, 1, 4);
             if (left < free) continue;
             context.fillText(text, left, height - 4);
             free = left + long + gap;
         }
-        for (const lux of marks) this.mark(context, Math.min(Math.max(this.scale.placeOf(lux), 0), 1) * width);
+        const read = reading[this.scale.quantity];
+        if (read > 0) this.mark(context, Math.min(Math.max(this.scale.placeOf(read), 0), 1) * width);
     }
 
     mark(context, x) {

@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import { packedBakes, readBakes } from './bakes.js';
-import { Scale, colourAt, luxOf, luxText } from './colours.js';
+import { colourAt, luxOf, luxText, percentText, scaleOfErrors, scaleOfLight } from './colours.js';
 import { convergence, element, lineColour, summary, table, timesTable } from './facts.js';
 import { Legend } from './legend.js';
 import { Stage } from './stage.js';
@@ -83,12 +83,15 @@ function addAtlases(bakes, scale, legend) {
             const x = Math.min(Math.floor(u * bake.map.width), bake.map.width - 1);
             const y = Math.min(Math.floor(v * bake.map.height), bake.map.height - 1);
             const lux = luxOf(bake.map.at(x, y));
-            reading.textContent = `${luxText(lux)} at column ${x}, row ${y}`;
-            legend.draw([lux]);
+            const error = bake.errors?.at(u, v);
+            reading.textContent = `${valueText(lux, error)} at column ${x}, row ${y}`;
+            legend.draw({ lux, error });
         });
         return element('div', { class: 'atlas' }, canvas, element('p', {}, reading));
     }));
 }
+
+const valueText = (lux, error) => error ? `${luxText(lux)} ± ${percentText(error)}` : luxText(lux);
 
 // Shows the light under the mouse below the scene.
 function readUnderMouse(stage, legend) {
@@ -99,20 +102,25 @@ function readUnderMouse(stage, legend) {
         if (!found) {
             reading.textContent = 'No baked surface.';
             reading.removeAttribute('data-lux');
+            reading.removeAttribute('data-error');
             legend.draw();
             return;
         }
-        const lux = luxOf(found.light), { x, y, z } = found.place;
+        const lux = luxOf(found.light), { error, place: { x, y, z } } = found;
         const which = stage.bakes.length > 1 ? `, ${found.bake.name}` : '';
-        reading.textContent = `${luxText(lux)} at ${x.toFixed(2)}, ${y.toFixed(2)}, ${z.toFixed(2)} m${which}`;
-        Object.assign(reading.dataset, { lux, u: found.uv.x, v: found.uv.y, bake: found.bake.name });
-        legend.draw([lux]);
+        reading.textContent = `${valueText(lux, error)} at ${x.toFixed(2)}, ${y.toFixed(2)}, ${z.toFixed(2)} m${which}`;
+        Object.assign(reading.dataset, { lux, error: error ?? '', u: found.uv.x, v: found.uv.y, bake: found.bake.name });
+        legend.draw({ lux, error });
     });
 }
 
-function addControls(stage) {
+function addControls(stage, legend, scales) {
     for (const input of document.querySelectorAll('[name=mode]'))
-        input.addEventListener('change', () => stage.setMode(input.value));
+        input.addEventListener('change', () => {
+            stage.setMode(input.value);
+            legend.show(scales[input.value] ?? scales.lux);
+        });
+    byId('errors').hidden = stage.bakes.every((bake) => !bake.errors);
     const exposure = byId('exposure');
     exposure.addEventListener('input', () => {
         stage.stops = Number(exposure.value);
@@ -142,14 +150,14 @@ async function open() {
 
     const stage = new Stage(document.querySelector('#stage canvas'));
     const bakes = await readBakes(stage.renderer, packed);
-    const scale = new Scale(bakes.map((bake) => bake.map));
-    stage.show(bakes, scale);
-    const legend = new Legend(document.querySelector('#legend canvas'), scale);
+    const scales = { lux: scaleOfLight(bakes.map((bake) => bake.map)), error: scaleOfErrors() };
+    stage.show(bakes, scales);
+    const legend = new Legend(document.querySelector('#legend canvas'), scales.lux);
     const size = new THREE.Box3().setFromObject(bakes[0].scene).getSize(new THREE.Vector3()).length();
     walk(stage.canvas, stage.camera, size, () => stage.draw());
-    addControls(stage);
+    addControls(stage, legend, scales);
     readUnderMouse(stage, legend);
-    addAtlases(bakes, scale, legend);
+    addAtlases(bakes, scales.lux, legend);
     stage.drawNow();
     document.documentElement.dataset.state = 'ready';
 }

@@ -7,21 +7,37 @@ const shownInstead = {
     light: 'outgoingLight = lightMapTexel.rgb * lightMapIntensity * RECIPROCAL_PI;',
     lux: `float lux = lightMapIntensity * dot( lightMapTexel.rgb, vec3( 0.2126, 0.7152, 0.0722 ) );
         float place = log( max( lux, 1e-9 ) / luxRange.x ) / log( luxRange.y / luxRange.x );
-        outgoingLight = texture2D( luxColours, vec2( clamp( place, 0.002, 0.998 ), 0.5 ) ).rgb;`,
+        outgoingLight = texture2D( falseColours, vec2( clamp( place, 0.002, 0.998 ), 0.5 ) ).rgb;`,
+    error: `float byte = 255.0 * texture2D( errorMap, vLightMapUv ).r;
+        float error = pow( leastError, ( 255.0 - byte ) / 254.0 );
+        float place = log( error / errorRange.x ) / log( errorRange.y / errorRange.x );
+        vec3 colour = texture2D( falseColours, vec2( clamp( place, 0.002, 0.998 ), 0.5 ) ).rgb;
+        outgoingLight = byte < 0.5 ? vec3( 0.1 ) : colour;`,
 };
+const inFalseColours = ['lux', 'error'];
+const declared = `uniform vec2 luxRange, errorRange;
+uniform float leastError;
+uniform sampler2D falseColours, errorMap;
+`;
+
+// For a bake without estimates.
+function noErrors() {
+    const texture = new THREE.DataTexture(new Uint8Array(1), 1, 1, THREE.RedFormat);
+    texture.needsUpdate = true;
+    return texture;
+}
 
 // A material that shows only the light of a surface, with its cut-outs and sides.
 function lightAlone(material, mode, uniforms) {
     const shown = new THREE.MeshBasicMaterial({
         map: material.map, alphaTest: material.alphaTest, transparent: material.transparent, side: material.side,
         opacity: material.opacity, lightMap: material.lightMap,
-        lightMapIntensity: material.lightMapIntensity, toneMapped: mode !== 'lux',
+        lightMapIntensity: material.lightMapIntensity, toneMapped: !inFalseColours.includes(mode),
     });
     shown.onBeforeCompile = (shader) => {
         Object.assign(shader.uniforms, uniforms);
-        shader.fragmentShader = 'uniform vec2 luxRange;\nuniform sampler2D luxColours;\n' +
-            shader.fragmentShader.replace('#include <opaque_fragment>',
-                `${shownInstead[mode]}\n#include <opaque_fragment>`);
+        shader.fragmentShader = declared + shader.fragmentShader.replace('#include <opaque_fragment>',
+            `${shownInstead[mode]}\n#include <opaque_fragment>`);
     };
     shown.customProgramCacheKey = () => mode;
     return shown;
@@ -39,19 +55,24 @@ export class Stage {
         this.waiting = false;
     }
 
-    /** Shows bakes from readBakes(). scale: of false colours. */
-    show(bakes, scale) {
+    /** Shows bakes from readBakes(). scales: of false colours, of light and of errors. */
+    show(bakes, { lux, error }) {
         this.bakes = bakes;
-        const uniforms = {
-            luxRange: { value: new THREE.Vector2(scale.low, scale.high) },
-            luxColours: { value: scale.texture() },
+        const shared = {
+            luxRange: { value: new THREE.Vector2(lux.low, lux.high) },
+            errorRange: { value: new THREE.Vector2(error.low, error.high) },
+            falseColours: { value: lux.texture() },
         };
-        for (const bake of bakes)
+        for (const bake of bakes) {
+            const { errors = null } = bake;
+            const uniforms = { ...shared, leastError: { value: errors?.leastError ?? 1 },
+                errorMap: { value: errors?.texture() ?? noErrors() } };
             bake.materials = bake.lit.map(({ material }) => ({
                 lit: material,
-                light: lightAlone(material, 'light', uniforms),
-                lux: lightAlone(material, 'lux', uniforms),
+                ...Object.fromEntries(Object.keys(shownInstead).map((mode) =>
+                    [mode, lightAlone(material, mode, uniforms)])),
             }));
+        }
         this.camera = new THREE.PerspectiveCamera();
         this.lookAsAtFirst();
         new ResizeObserver(() => this.resize()).observe(this.canvas);
@@ -111,6 +132,7 @@ export class Stage {
         const hit = this.caster.intersectObjects(bake.lit, false).find((met) => met.uv1);
         if (!hit) return null;
         const uv = hit.object.material.lightMap.transformUv(hit.uv1.clone()); // in the whole map
-        return { bake, place: hit.point, uv, light: bake.map.sample(uv.x, uv.y) };
+        return { bake, place: hit.point, uv, light: bake.map.sample(uv.x, uv.y),
+            error: bake.errors?.at(uv.x, uv.y) ?? null };
     }
 }
