@@ -4,12 +4,20 @@
 #include <cstdint>
 #include <vector>
 
+#include "atlas/packing/atlas.h"
+
 namespace lumel {
 
-/// Root of the mean of `square` over each lumel, with weight `own`, and its neighbours in `order`
-/// [N]. Rays allocated by a lumel's own error alone would make that error look too small. square,
-/// result: [N] by lumel.
-std::vector<double> deviation_nearby(const std::vector<double>& square,
-                                     const std::vector<std::uint32_t>& order, double own);
+/// Distance of neighbours [texels]: of light along rays, and of direct light, whose edges are
+/// narrow.
+inline constexpr int kIndirectReach = 2, kDirectReach = 1;
+
+/// Root of the mean of `square` over each lumel, with weight `own`, and its neighbours within
+/// `reach` texels on the same side of its chart; in charts too small to have enough of them, those
+/// in `order` [N]. Rays allocated by a lumel's own error alone would make that error look too
+/// small, and other surfaces tell nothing of it. square, result: [N] by lumel.
+std::vector<double> deviation_nearby(const std::vector<double>& square, const Lumels& lumels,
+                                     const std::vector<std::uint32_t>& order, int reach,
+                                     double own);
 
 }  // namespace lumel

@@ -437,7 +437,8 @@ bool DirectEstimator::refine(double share, std::uint64_t most, const std::vector
         now += variance[i] = weight[i] * double(glm::dot(apart, apart));
         square[i] = variance[i] * rays_of(i);
     }
-    const std::vector<double> deviation = deviation_nearby(square, work_.order, 1.0);
+    const std::vector<double> deviation =
+        deviation_nearby(square, work_.scene.lumels, work_.order, kDirectReach, 1.0);
     const double widest = *std::max_element(deviation.begin(), deviation.end());
     double left = 0.0;  // of the scale tried last
     const auto enough = [&](double scale) {

@@ -150,7 +150,8 @@ std::vector<float> LinkRadiosity::error_estimate() const
     for (std::size_t i = 0; i < square.size(); ++i)
         square[i] = double(mean_.noise[i]) +
                     (parts_wanted_ == Parts::indirect ? 0.0 : double(direct_mean_.noise[i]));
-    const std::vector<double> deviation = deviation_nearby(square, work_.order, 1.0);
+    const std::vector<double> deviation =
+        deviation_nearby(square, work_.scene.lumels, work_.order, kIndirectReach, 1.0);
     for (std::size_t i = 0; i < error.size(); ++i) {
         const glm::vec3 all = arrived(i);
         const double light = double(all.r + all.g + all.b);

@@ -134,7 +134,8 @@ std::vector<double> LinkRadiosity::deviation_of_ray(const std::vector<double>& s
         raw[i] = scale * spread(indirect(i, 0), indirect(i, 1), indirect(i, 2)) / 18.0;
         filtered[i] = scale * double(mean_.noise[i]);
     }
-    std::vector<double> deviation = deviation_nearby(raw, work_.order, 0.0);
+    std::vector<double> deviation =
+        deviation_nearby(raw, work_.scene.lumels, work_.order, kIndirectReach, 0.0);
     if (const ChartFilter* const by = filter()) {
         const std::vector<double> left = by->variance_left(raw, filtered);
         for (std::size_t i = 0; i < deviation.size(); ++i)
