@@ -193,20 +193,32 @@ TEST(Sides, HaveTheirErrorsWhereTheMapShowsThem)
         error.push_back(is_back(lumels.lumels[i]) ? 0.5f : 0.25f);
     const test::TemporaryFolder folder;
     const std::string path = folder / "solution.exr";
-    const std::vector<glm::vec3> light(error.size(), glm::vec3(1.0f));
+    std::vector<glm::vec3> light;
+    for (const Lumel& lumel : lumels.lumels)
+        light.emplace_back(is_back(lumel) ? 2.0f : 1.0f);
     write_solution(path, lumels, light, house.open);
     EXPECT_FALSE(has_layer(path, kErrorLayer));
     write_solution(path, lumels, light, house.open, error);
     ASSERT_TRUE(has_layer(path, kErrorLayer));
     const Image map = read_exr(path, kErrorLayer);
-    std::size_t backs = 0;
-    for (std::size_t i = 0; i < error.size(); ++i) {
-        if (lumels.lumels[i].instance >= kFirstOfBlock)
+    // The brighter side is shown where both share texels.
+    const std::vector<std::uint32_t> shown = shown_lumels(lumels, light);
+    std::size_t of_each_side[2] = {}, gutters = 0;
+    for (std::size_t texel = 0; texel < shown.size(); ++texel) {
+        const float found = map.values[4 * texel];
+        if (shown[texel] == kNoLumel) {
+            gutters += found > 0.0f ? 1 : 0;
             continue;
-        EXPECT_EQ(map.values[4 * map_texel(lumels, lumels.lumels[i])], error[i]);
-        backs += is_back(lumels.lumels[i]) ? 1 : 0;
+        }
+        const Lumel& lumel = lumels.lumels[shown[texel]];
+        if (lumel.flags & kLumelBuried)
+            continue;
+        EXPECT_EQ(found, error[shown[texel]]);
+        ++of_each_side[is_back(lumel) ? 1 : 0];
     }
-    EXPECT_GT(backs, 0u);
+    EXPECT_GT(of_each_side[0], 0u);
+    EXPECT_GT(of_each_side[1], 0u);
+    EXPECT_GT(gutters, 0u);
 }
 
 TEST(Sides, ShareNoTexel)

@@ -102,7 +102,7 @@ std::string where_it_is_noisy(const Scene& scene, const std::vector<NoisySurface
         return {};
     if (surfaces.size() > named)
         names += fmt::format(" and {} more", surfaces.size() - named);
-    return "noise may still be seen on " + names + "; a page by lumel report shows where";
+    return "noise may still be seen on " + names + "; see the errors in the page of lumel report";
 }
 
 }  // namespace lumel

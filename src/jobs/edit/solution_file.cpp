@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "atlas/finish/finish.h"
 #include "atlas/lumels/sides.h"
 #include "base/core/error.h"
 #include "base/images/image_files.h"
@@ -32,13 +33,19 @@ void set_shift(const Lumels& lumels, const Lumel& lumel, Image& image)
     shift[2] = lumels.shows_front ? 1.0f : 0.0f;
 }
 
-Image error_map(const Lumels& lumels, const std::vector<float>& error)
+/// Of the lumels that the map shows, with gutters as there.
+Image error_map(const Lumels& lumels, const std::vector<glm::vec3>& irradiance,
+                const std::vector<float>& error)
 {
+    const std::vector<std::uint32_t> shown = shown_lumels(lumels, irradiance);
     Image map(lumels.width, lumels.height, 4);
-    for (std::size_t i = 0; i < error.size(); ++i) {
-        float& shown = map.values[std::size_t(map_texel(lumels, lumels.lumels[i])) * 4];
-        shown = std::max(shown, error[i]);
-    }
+    for (std::size_t texel = 0; texel < shown.size(); ++texel)
+        if (shown[texel] != kNoLumel) {
+            map.values[4 * texel] = error[shown[texel]];
+            map.values[4 * texel + 3] = 1.0f;
+        }
+    fill_buried(map, lumels);
+    dilate(map);
     return map;
 }
 
@@ -106,7 +113,7 @@ void write_solution(const std::string& path, const Lumels& lumels,
     layers.push_back({kOpenLayer, std::move(shares)});
     layers.push_back({kShiftLayer, std::move(shift)});
     if (!error.empty())
-        layers.push_back({kErrorLayer, error_map(lumels, error)});
+        layers.push_back({kErrorLayer, error_map(lumels, irradiance, error)});
     write_exr(path, front, Precision::float32,
               {{"quantity", "irradiance of lumels, before gutters and seams"},
                {"unit", "lx"},

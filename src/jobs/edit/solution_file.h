@@ -29,9 +29,9 @@ struct StoredSolution {
 
 /// R, G, B: H [lx] of fronts; A: the chart number, from 1; layer "back": H of backs; layer "open":
 /// SolveScene::open of fronts in R, of backs in G; layer "shift": Atlas::back_shift of the chart in
-/// R and G, in B 1 for Atlas::shows_front; layer kErrorLayer, unless error is empty: the largest
-/// estimated error of the lumels that the texel of the map shows, in R. 32-bit float. irradiance
-/// [N], open [N], error [N]. Throws Error{output}.
+/// R and G, in B 1 for Atlas::shows_front; layer kErrorLayer, unless error is empty: in R, the
+/// error of the lumel that the map shows at a texel, with gutters as there. 32-bit float.
+/// irradiance [N], open [N], error [N]. Throws Error{output}.
 void write_solution(const std::string& path, const Lumels& lumels,
                     const std::vector<glm::vec3>& irradiance, const std::vector<float>& open,
                     const std::vector<float>& error = {});

@@ -108,6 +108,12 @@ std::vector<glm::vec3> light_after(const EditedScene& edit, const StoredSolution
     return solve_anew(*device, edit, baked, row, stages);
 }
 
+/// Light of the edited scene.
+struct NewLight {
+    std::vector<glm::vec3> irradiance;  ///< [N] [lx]
+    std::vector<float> error;           ///< see Solver::error_estimate(); empty: not known
+};
+
 /// The links of a bake, if it stores any.
 std::optional<StoredLinks> kept_links(const std::string& folder, const BakeRecord& baked)
 {
@@ -119,9 +125,9 @@ std::optional<StoredLinks> kept_links(const std::string& folder, const BakeRecor
     return kept;
 }
 
-/// H' [N] [lx] as a bake with stored links computes it in the edited atlas. Updates the links.
-std::vector<glm::vec3> light_over_links(const EditedScene& edit, StoredLinks& kept,
-                                        BakeRecord& baked, UpdateRow& row, Stages& stages)
+/// As a bake with stored links computes it in the edited atlas. Updates the links.
+NewLight light_over_links(const EditedScene& edit, StoredLinks& kept, BakeRecord& baked,
+                          UpdateRow& row, Stages& stages)
 {
     const StoredLinks mine = links_for(edit, std::exchange(kept, {}));
     stages.begin("solving");
@@ -139,7 +145,7 @@ std::vector<glm::vec3> light_over_links(const EditedScene& edit, StoredLinks& ke
     baked.eye_error = state.eye_error;
     baked.visible_noise = state.visible_noise;
     kept = solver.kept(edit.now.scene.hash);
-    return solver.irradiance();
+    return {solver.irradiance(), solver.error_estimate()};
 }
 
 void check_paths(const std::string& folder, const std::string& scene_path)
@@ -191,9 +197,9 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     if (row.any()) {
         if ((row.relit && !kept) || options.preview_width > 0)
             device.emplace(options.device);
-        const std::vector<glm::vec3> irradiance =
+        const NewLight light =
             kept ? light_over_links(edit, *kept, baked, row, stages)
-                 : light_after(edit, solution, baked, options, row, device, stages);
+                 : NewLight{light_after(edit, solution, baked, options, row, device, stages), {}};
         stages.begin("finishing");
         const BakeOptions files{.parts = baked.parts,
                                 .half = baked.half,
@@ -202,8 +208,8 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
                                 .baked_size = baked.baked_size,
                                 .preview_width = options.preview_width};
         output.outdate(kMatrixFile);
-        written = write_light(output, files, edit.now, device ? &*device : nullptr, irradiance, {},
-                              {}, stages);
+        written = write_light(output, files, edit.now, device ? &*device : nullptr,
+                              light.irradiance, light.error, {}, stages);
     }
     if (kept) {
         kept->scene_hash = edit.now.scene.hash;

@@ -11,7 +11,7 @@ namespace {
 
 /// Maximum distance of neighbours in the order.
 constexpr std::size_t kReachInOrder = 4;
-/// Neighbours on a chart that are enough.
+/// Minimum neighbours on the chart.
 constexpr double kEnough = 3.0;
 constexpr std::size_t kDeviationsPerTask = 1024;
 
@@ -25,7 +25,7 @@ NearSquares on_chart(const std::vector<double>& square, const Lumels& lumels,
 {
     const Lumel& lumel = lumels.lumels[i];
     const int x = int(lumel.texel) % lumels.width, y = int(lumel.texel) / lumels.width;
-    const std::uint32_t side = lumel.flags & kLumelBack ? 1 : 0;
+    const int side = is_back(lumel) ? 1 : 0;
     NearSquares sum;
     for (int dy = -reach; dy <= reach; ++dy)
         for (int dx = -reach; dx <= reach; ++dx) {
@@ -38,7 +38,7 @@ NearSquares on_chart(const std::vector<double>& square, const Lumels& lumels,
     return sum;
 }
 
-/// Over those at a place of the order, without the lumel there.
+/// Over the lumels near `place` in the order, without the one there.
 NearSquares in_order(const std::vector<double>& square, const std::vector<std::uint32_t>& order,
                      std::size_t place)
 {

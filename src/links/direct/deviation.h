@@ -14,8 +14,8 @@ inline constexpr int kIndirectReach = 2, kDirectReach = 1;
 
 /// Root of the mean of `square` over each lumel, with weight `own`, and its neighbours within
 /// `reach` texels on the same side of its chart; in charts too small to have enough of them, those
-/// in `order` [N]. Rays allocated by a lumel's own error alone would make that error look too
-/// small, and other surfaces tell nothing of it. square, result: [N] by lumel.
+/// beside it in `order` [N]. Rays allocated by a lumel's own error alone would make that error look
+/// too small, and errors of other surfaces are unrelated. square, result: [N] by lumel.
 std::vector<double> deviation_nearby(const std::vector<double>& square, const Lumels& lumels,
                                      const std::vector<std::uint32_t>& order, int reach,
                                      double own);

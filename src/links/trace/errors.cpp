@@ -146,19 +146,22 @@ std::vector<float> LinkRadiosity::error_estimate() const
     std::vector<float> error(work_.lumels().size(), 1.0f);
     if (mean_.light.empty())
         return error;
-    std::vector<double> square(error.size());
-    for (std::size_t i = 0; i < square.size(); ++i)
-        square[i] = double(mean_.noise[i]) +
-                    (parts_wanted_ == Parts::indirect ? 0.0 : double(direct_mean_.noise[i]));
-    const std::vector<double> deviation =
-        deviation_nearby(square, work_.scene.lumels, work_.order, kIndirectReach, 1.0);
+    const auto deviation = [&](const Mean& of, int reach) {
+        return deviation_nearby({of.noise.begin(), of.noise.end()}, work_.scene.lumels, work_.order,
+                                reach, 1.0);
+    };
+    const std::vector<double> of_rays = deviation(mean_, kIndirectReach);
+    std::vector<double> of_direct(error.size(), 0.0);
+    if (parts_wanted_ != Parts::indirect)
+        of_direct = deviation(direct_mean_, kDirectReach);
     for (std::size_t i = 0; i < error.size(); ++i) {
         const glm::vec3 all = arrived(i);
         const double light = double(all.r + all.g + all.b);
         // √(Σ d² / 3) / (Σ H / 3)
         error[i] = work_.is_buried(i) || !(light > 0.0)
                        ? 0.0f
-                       : float(std::min(std::sqrt(3.0) * deviation[i] / light, 1.0));
+                       : float(std::min(
+                             std::sqrt(3.0) * std::hypot(of_rays[i], of_direct[i]) / light, 1.0));
     }
     return error;
 }

@@ -60,7 +60,7 @@ struct LinkRadiosity::LearntGroup {
     RayGuide::Table table;
 };
 
-/// Whether rays may be uneven.
+/// Whether rays may be guided.
 bool LinkRadiosity::can_guide() const
 {
     return options_.guide && !shares_directions() && mean_albedo() <= kBrightestGuided;
@@ -105,7 +105,7 @@ void LinkRadiosity::add_moments(std::uint32_t i, std::uint32_t k, const LinkRow&
     }
 }
 
-/// Tables of those groups of a block that gain by them.
+/// Tables for the groups of a block that gain by one.
 std::vector<LinkRadiosity::LearntGroup>
 LinkRadiosity::learn_block(std::size_t b, const std::array<SentLight, kSolutions>& sent) const
 {

@@ -39,7 +39,7 @@ bool LinkRadiosity::has_known_round() const
 }
 
 /// Starts a round of an earlier run again. Lumels that changed have the mean number of rays if they
-/// were buried. Lumels of another atlas have other numbers than those of the guide.
+/// were buried. A guide of another atlas guides no lumel of this one.
 void LinkRadiosity::begin_known_round()
 {
     const StoredLinks::Round& round = stored_->rounds[round_];
@@ -50,7 +50,7 @@ void LinkRadiosity::begin_known_round()
         if (rays_[i] == 0 && (changes_.all || changes_.starts[i]))
             rays_[i] = std::uint16_t(std::lround(mean_rays_));
     first_rays_ = first_rays(round.rays);
-    if (round_ == 0 && !changes_.all)
+    if (round_ == 0 && stored_->guide.fits(work_.order.size()))
         guide_ = stored_->guide;
     begin_links();
 }

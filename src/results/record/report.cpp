@@ -21,8 +21,8 @@ Json map_units(bool directional, int pages)
         {"lightmap.png", "tone-mapped for display, sRGB"},
         {"solution.exr",
          "irradiance of lumels as solved [lx]: fronts in RGB, backs in layer back; "
-         "open fractions of their areas in layer open, R and G; estimated errors of the "
-         "map's texels, relative to their light, in layer error, R; alpha is the number "
+         "open fractions of their areas in layer open, R and G; errors that links estimate "
+         "for the map's texels, relative to their light, in layer error, R; alpha is the number "
          "of the chart, from 1"},
         {"scene.glb", "MOZ_lightmap: reflected radiance = albedo / pi x texel x intensity, "
                       "texel linear, intensity in lx"},

@@ -48,7 +48,7 @@ TEST(Deviation, OfOneChartTellsNothingOfOthers)
     EXPECT_LT(mixed, lumels / 500);
 }
 
-/// One noisy lumel does not tell of itself, but of all neighbours alike, up to the rim.
+/// One noisy lumel counts for its neighbours, not for itself.
 TEST(Deviation, OfOneLumelIsThatOfItsNeighbours)
 {
     const Room room;

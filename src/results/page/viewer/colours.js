@@ -59,7 +59,7 @@ export function scaleOfLight(maps) {
     return new Scale(Math.min(Math.max(roundUp(part(0.02)) / 2, high / 1e4), high / 10), high, 'lux', luxText);
 }
 
-/** Of relative errors: from one that no eye sees to one that all do. */
+/** Of relative errors: from invisible to obvious. */
 export const scaleOfErrors = () => new Scale(0.001, 0.2, 'error', percentText);
 
 /** A fraction in percent. */

@@ -85,7 +85,7 @@ function addAtlases(bakes, scale, legend) {
             const lux = luxOf(bake.map.at(x, y));
             const error = bake.errors?.at(u, v);
             reading.textContent = `${valueText(lux, error)} at column ${x}, row ${y}`;
-            legend.draw({ lux, error });
+            legend.draw({ lux });
         });
         return element('div', { class: 'atlas' }, canvas, element('p', {}, reading));
     }));

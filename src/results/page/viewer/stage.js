@@ -64,7 +64,7 @@ export class Stage {
             falseColours: { value: lux.texture() },
         };
         for (const bake of bakes) {
-            const { errors = null } = bake;
+            const { errors } = bake;
             const uniforms = { ...shared, leastError: { value: errors?.leastError ?? 1 },
                 errorMap: { value: errors?.texture() ?? noErrors() } };
             bake.materials = bake.lit.map(({ material }) => ({
