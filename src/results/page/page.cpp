@@ -34,7 +34,7 @@ constexpr float kLeastError = 1e-4f;
 /// scene.glb without its lightmap: the page has its own.
 std::vector<std::uint8_t> without_lightmap(const std::string& path)
 {
-    const GltfDocument document = load_gltf_document(path);
+    const GltfDocument document = load_gltf_document(path, BakeChanges::kept);
     GlbBuilder builder(document);
     std::set<std::size_t> textures;
     if (builder.json.contains("materials"))

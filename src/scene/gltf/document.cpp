@@ -116,7 +116,7 @@ void check_buffer_views(const GltfDocument& document)
 
 }  // namespace
 
-GltfDocument load_gltf_document(const std::string& path)
+GltfDocument load_gltf_document(const std::string& path, BakeChanges changes)
 {
     // Separates the JSON from the binary chunk.
     const Bytes file = read_file(path, path);
@@ -127,7 +127,7 @@ GltfDocument load_gltf_document(const std::string& path)
     GltfDocument document;
     document.path = path;
     document.json = parse_json(path, file.data() + chunks.json_offset, chunks.json_size);
-    if (document.json.is_object()) {
+    if (document.json.is_object() && changes == BakeChanges::undone) {
         bring_back_lights(document.json);
         join_sides(document.json);
         join_pages(document.json);

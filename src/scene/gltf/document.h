@@ -23,9 +23,13 @@ struct GltfDocument {
     JsonView root() const { return {path, json}; }
 };
 
+/// What a bake has changed in a scene: lamps left out, sides and parts of surfaces that have charts
+/// of their own, light probes.
+enum class BakeChanges { undone, kept };
+
 /// Reads a file, its external buffers and data URIs. Throws Error{input} with file, JSON pointer
 /// and reason for invalid data and for unsupported required extensions.
-GltfDocument load_gltf_document(const std::string& path);
+GltfDocument load_gltf_document(const std::string& path, BakeChanges changes = BakeChanges::undone);
 
 enum class ComponentType { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
