@@ -142,6 +142,12 @@ private:
     std::vector<std::vector<half>> halves_;
 };
 
+[[noreturn]] void fail_without(const std::string& path, const std::string& channel)
+{
+    throw Error(ErrorKind::input, path,
+                "has no channel " + channel + "; an RGB or RGBA image is needed");
+}
+
 }  // namespace
 
 void write_exr(const std::string& path, const Image& image, Precision precision,
@@ -167,43 +173,20 @@ void write_exr(const std::string& path, const Image& image, Precision precision,
     write_bytes(path, stream.bytes);
 }
 
-namespace {
-
-/// Calls read(file) for the opened file.
-template <class Read>
-auto from_exr(const std::string& path, const Read& read)
+std::optional<Image> find_exr_layer(const std::string& path, const std::string& layer)
 {
     try {
         const Bytes bytes = read_file(path, path);
         check_exr_claims(bytes, path);
         MemoryFile stream(path, bytes);
         Imf::InputFile file(stream);
-        return read(file);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw Error(ErrorKind::input, path, std::string("cannot be read as EXR: ") + error.what());
-    }
-}
-
-}  // namespace
-
-bool has_layer(const std::string& path, const std::string& layer)
-{
-    return from_exr(path, [&](const Imf::InputFile& file) {
-        return file.header().channels().findChannel(channel_name(layer, 0)) != nullptr;
-    });
-}
-
-Image read_exr(const std::string& path, const std::string& layer)
-{
-    return from_exr(path, [&](Imf::InputFile& file) {
         const Imath::Box2i window = file.header().dataWindow();
-        for (int c = 0; c < 3; ++c)
-            if (!file.header().channels().findChannel(channel_name(layer, c)))
-                throw Error(ErrorKind::input, path,
-                            "has no channel " + channel_name(layer, c) +
-                                "; an RGB or RGBA image is needed");
+        const Imf::ChannelList& channels = file.header().channels();
+        if (!channels.findChannel(channel_name(layer, 0)))
+            return std::nullopt;
+        for (int c = 1; c < 3; ++c)
+            if (!channels.findChannel(channel_name(layer, c)))
+                fail_without(path, channel_name(layer, c));
 
         Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, 4);
         Imf::FrameBuffer frame;
@@ -214,7 +197,19 @@ Image read_exr(const std::string& path, const std::string& layer)
         file.setFrameBuffer(frame);
         file.readPixels(window.min.y, window.max.y);
         return image;
-    });
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw Error(ErrorKind::input, path, std::string("cannot be read as EXR: ") + error.what());
+    }
+}
+
+Image read_exr(const std::string& path, const std::string& layer)
+{
+    std::optional<Image> image = find_exr_layer(path, layer);
+    if (!image)
+        fail_without(path, channel_name(layer, 0));
+    return std::move(*image);
 }
 
 std::string openexr_version()

@@ -31,8 +31,8 @@ void write_exr(const std::string& path, const Image& image, Precision precision,
 /// Error{input}.
 Image read_exr(const std::string& path, const std::string& layer = "");
 
-/// True if the file has the R channel of a layer. Throws Error{input}.
-bool has_layer(const std::string& path, const std::string& layer);
+/// The same; empty if the file has no such layer.
+std::optional<Image> find_exr_layer(const std::string& path, const std::string& layer);
 
 /// Transfer function of a PNG, as its header declares it.
 enum class PngEncoding { srgb, linear };

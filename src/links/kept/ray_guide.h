@@ -36,7 +36,7 @@ struct RayGuide {
     std::vector<std::uint32_t> group;  ///< [N]
     std::vector<Table> tables;         ///< [groups]
 
-    /// That of group 0.
+    /// Equal probabilities: the table of group 0.
     static Table uniform();
     /// Weight of a ray to a bin of that probability.
     static float weight(std::uint16_t probability) { return float(kUniform) / float(probability); }

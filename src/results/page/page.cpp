@@ -86,15 +86,15 @@ std::pair<std::vector<unsigned char>, float> small_lightmap(Image map)
 /// 254); 0: none. Empty if the bake has no estimate.
 std::vector<std::uint8_t> error_bytes(const std::string& solution, const Image& map)
 {
-    if (!fs::exists(solution) || !has_layer(solution, kErrorLayer))
+    const std::optional<Image> errors = find_exr_layer(solution, kErrorLayer);
+    if (!errors)
         return {};
-    const Image errors = read_exr(solution, kErrorLayer);
-    if (errors.width != map.width || errors.height != map.height)
+    if (errors->width != map.width || errors->height != map.height)
         throw Error(ErrorKind::input, solution, "has another size than the lightmap");
     std::vector<std::uint8_t> bytes;
-    bytes.reserve(errors.values.size() / 4);
-    for (std::size_t i = 0; i < errors.values.size(); i += 4) {
-        const float error = errors.values[i];
+    bytes.reserve(errors->values.size() / 4);
+    for (std::size_t i = 0; i < errors->values.size(); i += 4) {
+        const float error = errors->values[i];
         const float place =
             1.0f - std::log(std::clamp(error, kLeastError, 1.0f)) / std::log(kLeastError);
         bytes.push_back(error > 0.0f ? std::uint8_t(std::lround(1.0f + 254.0f * place)) : 0);

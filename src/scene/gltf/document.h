@@ -23,8 +23,8 @@ struct GltfDocument {
     JsonView root() const { return {path, json}; }
 };
 
-/// What a bake has changed in a scene: lamps left out, sides and parts of surfaces that have charts
-/// of their own, light probes.
+/// Changes that a bake makes to a scene file: it removes lamps, splits surfaces by side and by
+/// lightmap page, and adds light probes.
 enum class BakeChanges { undone, kept };
 
 /// Reads a file, its external buffers and data URIs. Throws Error{input} with file, JSON pointer

@@ -53,10 +53,10 @@ TEST(Deviation, OfOneLumelIsThatOfItsNeighbours)
 {
     const Room room;
     constexpr std::size_t kWithin = (2 * kIndirectReach + 1) * (2 * kIndirectReach + 1) - 1;
-    std::vector<double> ones(room.lumels().size(), 1.0);
+    const std::size_t count = room.lumels().size();
     std::size_t checked = 0;
-    for (std::uint32_t i = 0; i < ones.size(); i += 97) {
-        std::vector<double> square(ones.size(), 0.0);
+    for (std::uint32_t i = 0; i < count; i += 97) {
+        std::vector<double> square(count, 0.0);
         square[i] = double(kWithin);
         const std::vector<double> alone = room.deviation(square, 0.0),
                                   own = room.deviation(square, 1.0);
