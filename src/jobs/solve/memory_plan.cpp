@@ -128,7 +128,8 @@ void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLi
 void check_memory(const SolveScene& prepared, const BakeOptions& options,
                   const MemoryLimits& limits)
 {
-    const Occluders occluders = find_occluders(prepared.scene, {}, &prepared.atlas);
+    const Occluders occluders =
+        needs_world(options) ? find_occluders(prepared.scene, {}, &prepared.atlas) : Occluders{};
     refuse(shortage(graphics_memory(prepared, occluders, options),
                     host_memory(prepared, options, limits.shared), prepared.atlas.pages.side,
                     limits));
