@@ -24,6 +24,8 @@ constexpr double kBlack = 1e-4;
 constexpr double kMostCharts = 0.95;
 /// Radius of a Gaussian, in deviations.
 constexpr float kBellRadius = 4.0f;
+/// A chart this large is blurred on several cores: one wall can be most of a scene.
+constexpr std::size_t kTexelsPerTask = 16384;
 
 constexpr std::size_t kLevels = VisibleNoise::kBands + 1;
 /// Deviations of the Gaussian means [lumels].
@@ -64,14 +66,19 @@ Grid blurred(const Grid& grid, float deviation)
         for (int x = 0; x < count; ++x)
             to[x] += by * from[x];
     };
-    for (int y = 0; y < grid.height; ++y)
+    Grid all{grid.width, grid.height, std::vector<float>(grid.value.size(), 0.0f)};
+    const auto blur_row = [&](int y) {
         for (int k = std::max(-radius, -y); k <= std::min(radius, grid.height - 1 - y); ++k)
             add_row(grid.row(y + k), &rows.at(0, y), weight_at(k), grid.width);
-    Grid all{grid.width, grid.height, std::vector<float>(grid.value.size(), 0.0f)};
-    for (int y = 0; y < grid.height; ++y)
         for (int k = -std::min(radius, grid.width - 1); k <= std::min(radius, grid.width - 1); ++k)
             add_row(&rows.at(std::max(k, 0), y), &all.at(std::max(-k, 0), y), weight_at(k),
                     grid.width - std::abs(k));
+    };
+    parallel_for(std::size_t(grid.height), kTexelsPerTask / std::size_t(grid.width),
+                 [&](std::size_t first, std::size_t last) {
+                     for (std::size_t y = first; y < last; ++y)
+                         blur_row(int(y));
+                 });
     return all;
 }
 
