@@ -168,7 +168,7 @@ Json facts(const SampledScene& sampled, const BakeOptions& options)
     json["back_lumels"] = back;
     json["buried_lumels"] = sampled.open().buried;
     json["occluding_triangles"] = occluders.inner_indices().size() / 3;
-    const GraphicsMemory memory = graphics_memory(prepared, occluders, options);
+    const GraphicsMemory memory = graphics_memory(prepared, options);
     json["graphics_memory_bytes"] = memory.most();
     json["graphics_memory_parts"] = json_of(memory);
     const std::optional<MemoryLimits> limits = usual_limits(options);

@@ -60,23 +60,23 @@ std::uint64_t GraphicsMemory::most() const
     return staging + world + std::max(direct_light, solver + directional);
 }
 
-GraphicsMemory graphics_memory(const SolveScene& prepared, const Occluders& occluders,
-                               const BakeOptions& options)
+GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& options)
 {
     const float diagonal = glm::length(prepared.rays.high() - prepared.rays.low());
     const SolveSize size{
         &prepared.lumels,
         near_pairs_for(prepared.scene, prepared.rays, prepared.lumels, options.solver), diagonal};
-    return {.staging = needs_world(options) ? gpu::Staging::device_bytes() : 0,
-            .world = needs_world(options) ? World::device_bytes(prepared.lumels, occluders) : 0,
-            .direct_light = method_of(options.solver.method).finds_lights
-                                ? 0
-                                : direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
-            .solver = keeps_sources_apart(options)
-                          ? RelightSolver::device_bytes(
-                                size, std::get<MatrixOptions>(options.solver.method))
-                          : solver_bytes(size, options.solver),
-            .directional = directional_bytes(size, directional_options(options, 0))};
+    return {
+        .staging = needs_world(options) ? gpu::Staging::device_bytes() : 0,
+        .world = needs_world(options) ? World::device_bytes(prepared.lumels, prepared.atlas) : 0,
+        .direct_light = method_of(options.solver.method).finds_lights
+                            ? 0
+                            : direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
+        .solver =
+            keeps_sources_apart(options)
+                ? RelightSolver::device_bytes(size, std::get<MatrixOptions>(options.solver.method))
+                : solver_bytes(size, options.solver),
+        .directional = directional_bytes(size, directional_options(options, 0))};
 }
 
 MemoryLimits memory_limits(std::uint64_t max_memory, const gpu::DeviceInfo& device,
@@ -128,9 +128,7 @@ void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLi
 void check_memory(const SolveScene& prepared, const BakeOptions& options,
                   const MemoryLimits& limits)
 {
-    const Occluders occluders =
-        needs_world(options) ? find_occluders(prepared.scene, {}, &prepared.atlas) : Occluders{};
-    refuse(shortage(graphics_memory(prepared, occluders, options),
+    refuse(shortage(graphics_memory(prepared, options),
                     host_memory(prepared, options, limits.shared), prepared.atlas.pages.side,
                     limits));
 }

@@ -8,7 +8,6 @@
 #include "gpu/device.h"
 #include "jobs/solve/bake_options.h"
 #include "jobs/solve/host_memory.h"
-#include "raster/world/occluders.h"
 
 namespace lumel {
 
@@ -18,8 +17,7 @@ struct GraphicsMemory {
 
     std::uint64_t most() const;
 };
-GraphicsMemory graphics_memory(const SolveScene& prepared, const Occluders& occluders,
-                               const BakeOptions& options);
+GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& options);
 
 /// Memory limits of a bake [bytes], 0: unknown.
 struct MemoryLimits {

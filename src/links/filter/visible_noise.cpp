@@ -24,7 +24,7 @@ constexpr double kBlack = 1e-4;
 constexpr double kMostCharts = 0.95;
 /// Radius of a Gaussian, in deviations.
 constexpr float kBellRadius = 4.0f;
-/// A chart this large is blurred on several cores: one wall can be most of a scene.
+/// Minimum size of a task: a large wall is blurred on all cores.
 constexpr std::size_t kTexelsPerTask = 16384;
 
 constexpr std::size_t kLevels = VisibleNoise::kBands + 1;

@@ -159,15 +159,19 @@ void World::bound(const Scene& scene)
     high_ = empty ? glm::vec3(0.0f) : all.high;
 }
 
-std::uint64_t World::device_bytes(const Lumels& lumels, const Occluders& occluders)
+std::uint64_t World::device_bytes(const Lumels& lumels, const Atlas& atlas)
 {
-    // Lumels, pieces and vertices, both in their instance's frame and in the world.
+    std::size_t vertices = 0, indices = 0;
+    for (const Surface& surface : atlas.surfaces) {
+        vertices += surface.texcoord.size();
+        indices += surface.indices.size();
+    }
+    // Lumels, pieces and vertices, both in their instance's frame and in the world; of a vertex
+    // also its instance, look, place and chart (see Occluders).
     return lumels.lumels.size() * 2 * sizeof(Lumel) + lumels.pieces.size() * 2 * sizeof(Piece) +
-           occluders.positions.size() * 2 * sizeof(glm::vec3) +
-           occluders.instances.size() * sizeof(std::uint32_t) +
-           occluders.look.size() * sizeof(glm::vec3) + occluders.place.size() * sizeof(glm::vec2) +
-           occluders.chart.size() * sizeof(glm::vec4) +
-           occluders.indices.size() * sizeof(std::uint32_t);
+           vertices * (2 * sizeof(glm::vec3) + sizeof(std::uint32_t) + sizeof(glm::vec3) +
+                       sizeof(glm::vec2) + sizeof(glm::vec4)) +
+           indices * sizeof(std::uint32_t);
 }
 
 }  // namespace lumel

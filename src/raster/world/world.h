@@ -70,7 +70,7 @@ public:
     /// True if there is coloured glass: views with one channel each are needed.
     bool has_coloured_glass() const { return coloured_glass_; }
     /// GPU memory [bytes].
-    static std::uint64_t device_bytes(const Lumels& lumels, const Occluders& occluders);
+    static std::uint64_t device_bytes(const Lumels& lumels, const Atlas& atlas);
 
     glm::vec3 low() const { return low_; }  ///< bounding box [m]
     glm::vec3 high() const { return high_; }
