@@ -197,7 +197,7 @@ private:
     std::optional<ChartFilter> filter_;  ///< for the present links; empty: not made
     // Solutions share no random numbers except those of direct light.
     std::array<std::optional<LinkTable>, kSolutions> links_;
-    std::array<SourceTerm, kSolutions> sources_;               ///< of the last sweeps
+    std::array<SourceTerm, kSolutions> sources_;  ///< of the last sweeps, without light
     std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] without direct light
     Mean mean_;                                                ///< filtered mean of solutions
     Mean direct_mean_;                                         ///< filtered mean of direct light

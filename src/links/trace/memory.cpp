@@ -48,7 +48,7 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
 
 std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels)
 {
-    constexpr std::size_t kOfSources = 2 * sizeof(glm::vec3) + sizeof(std::uint32_t);
+    constexpr std::size_t kOfSources = sizeof(glm::vec3) + sizeof(float);
     constexpr std::size_t kOfMean = 2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 2 * sizeof(float);
     constexpr std::size_t kOfOrder = sizeof(std::uint32_t), kOfGroups = sizeof(std::uint32_t),
                           kOfNoise = sizeof(std::uint32_t);
@@ -65,7 +65,7 @@ std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, 
 
 std::uint64_t LinkRadiosity::sweep_bytes(std::size_t lumels)
 {
-    const std::uint64_t sweep = lumels * 3 * sizeof(glm::vec4);
+    const std::uint64_t sweep = lumels * (4 * sizeof(glm::vec4) + sizeof(float));
     const std::uint64_t mean = lumels * (kSolutions * sizeof(glm::vec3) + sizeof(float)) +
                                ChartFilter::working_bytes(lumels);
     return std::max(sweep, mean);

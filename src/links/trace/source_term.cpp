@@ -79,7 +79,7 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
                             const LinkNumbers& numbers, const ReflectedLight& reflected,
                             const LinkTable& links)
 {
-    SourceTerm sum{std::vector<glm::vec3>(parts.count(), glm::vec3(0.0f)),
+    SourceTerm sum{std::vector<glm::vec4>(parts.count(), glm::vec4(0.0f)),
                    std::vector<float>(parts.count(), 0.0f)};
     const std::vector<char> unknown = unknown_parts(work, parts, numbers, links);
     std::vector<char> loses(work.order.size(), 0);
@@ -115,7 +115,7 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
             }
             counts[leaves].rays += 1.0f;
             counts[leaves].weights += weight;
-            sum.light[first + leaves] += weight * light;
+            sum.light[first + leaves] += glm::vec4(weight * light, 0.0f);
         }
         for (std::uint32_t p = first; p < parts.end(i); ++p) {
             const Count& count = counts[p - first];
@@ -123,7 +123,7 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
         }
     });
     for (std::size_t p = 0; p < sum.light.size(); ++p)
-        sum.light[p] += links.sky[p];
+        sum.light[p] += glm::vec4(links.sky[p], 0.0f);
     sum.is_closed = std::none_of(loses.begin(), loses.end(), [](char one) { return one != 0; });
     return sum;
 }

@@ -15,7 +15,8 @@
 namespace lumel {
 
 struct SourceTerm {
-    std::vector<glm::vec3> light;  ///< [P] Σ over rays of reflected direct light, and sky [lx]
+    /// [P] Σ over rays of reflected direct light, and sky [lx]. w: 0, so that sweeps can add to it.
+    std::vector<glm::vec4> light;
     /// [P] Σ of the weights of rays that count: not those to sub-lumels without any. Where all
     /// count, their number.
     std::vector<float> rays;

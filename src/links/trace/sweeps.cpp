@@ -29,6 +29,9 @@ constexpr double kMaxFactor = 64.0;
 constexpr double kMinArea = 1e-30;
 /// Blocks per task.
 constexpr std::size_t kBlocksPerTask = 4;
+/// Sums that are computed in parallel: always as many, so that results do not depend on the number
+/// of cores.
+constexpr std::size_t kSums = 16;
 /// Minimum assumed convergence: changes shrink at least by this factor.
 constexpr double kSlowestSweep = 1.0 - 1e-6;
 /// A pivot below this means that all light of a group returns to it.
@@ -43,29 +46,32 @@ double mean_of(const std::vector<glm::vec4>& sent, std::size_t parts)
     return sum / double(std::max<std::size_t>(parts, 1));
 }
 
-/// Adds what the rays of a row bring to the sub-lumels of lumel i.
+/// Adds what the rays of a row bring to the sub-lumels of lumel i, which is cut.
 void add_row(const LinkRow& row, const SubLumels& parts, std::size_t i,
              const std::vector<glm::vec4>& sent, std::array<glm::vec4, kMaxParts>& sums)
 {
-    if (row.from) {
-        for (std::size_t k = 0; k < row.ends.size(); ++k)
-            sums[row.leaves(parts, i, k)] += row.weight(k) * sent[row.ends[k].number()];
-    } else if (row.probabilities) {
-        glm::vec4 sum = sums[0];
-        for (std::size_t k = 0; k < row.ends.size(); ++k)
-            sum += row.weight(k) * sent[row.ends[k].number()];
-        sums[0] = sum;
-    } else {
-        glm::vec4 sum = sums[0];
-        for (const LinkEnd end : row.ends)
-            sum += sent[end.number()];
-        sums[0] = sum;
-    }
+    for (std::size_t k = 0; k < row.ends.size(); ++k)
+        sums[row.leaves(parts, i, k)] += row.weight(k) * sent[row.ends[k].number()];
     for (const NearLink& near : row.near) {
         const std::size_t k = near.slot - row.first_slot;
         sums[row.leaves(parts, i, k)] += row.weight(k) * sent[near.end.number()] *
                                          glm::vec4(glm::unpackF3x9_E1x5(near.weight), 0.0f);
     }
+}
+
+/// Adds what the rays of a row bring to a lumel that is not cut.
+glm::vec4 sum_of_row(const LinkRow& row, const std::vector<glm::vec4>& sent, glm::vec4 sum)
+{
+    if (row.probabilities)
+        for (std::size_t k = 0; k < row.ends.size(); ++k)
+            sum += row.weight(k) * sent[row.ends[k].number()];
+    else
+        for (const LinkEnd end : row.ends)
+            sum += sent[end.number()];
+    for (const NearLink& near : row.near)
+        sum += row.weight(near.slot - row.first_slot) * sent[near.end.number()] *
+               glm::vec4(glm::unpackF3x9_E1x5(near.weight), 0.0f);
+    return sum;
 }
 
 }  // namespace
@@ -83,8 +89,15 @@ public:
         const std::size_t cells = std::size_t(size_) * size_;
         for (int c = 0; c < 3; ++c)
             inverse_[c].assign(cells, 0.0);
+        const std::vector<Lumel>& lumels = solver.work_.lumels();
+        area_of_part_.resize(solver.parts_.count());
         area_.assign(size_, 0.0);
-        for_each_part([&](std::uint32_t p, double area) { area_[solver.group_[p]] += area; });
+        for (std::uint32_t p = 0; p < area_of_part_.size(); ++p) {
+            const std::uint32_t i = solver.parts_.lumel(p);
+            area_of_part_[p] =
+                lumels[i].area / float(solver.parts_.end(i) - solver.parts_.first(i));
+            area_[solver.group_[p]] += double(area_of_part_[p]);
+        }
         count_links(system);
         for (int c = 0; c < 3; ++c)
             invert(inverse_[c]);
@@ -95,11 +108,24 @@ public:
     double correct(const std::vector<Reflected>& before, std::vector<Reflected>& now) const
     {
         std::vector<glm::dvec3> change(size_, glm::dvec3(0.0)), mean = change, factor = change;
-        for_each_part([&](std::uint32_t p, double area) {
-            const std::uint32_t n = solver_.numbers_.of_part(p);
-            change[solver_.group_[p]] += area * glm::dvec3(now[n] - before[n]);
-            mean[solver_.group_[p]] += area * glm::dvec3(now[n]);
-        });
+        struct Sums {
+            std::vector<glm::dvec3> change, now;  ///< [groups]
+        };
+        std::vector<Sums> sums(kSums, {change, change});
+        for_each_span(
+            area_of_part_.size(), [&](std::size_t s, std::size_t first, std::size_t last) {
+                for (std::size_t p = first; p < last; ++p) {
+                    const std::uint32_t n = solver_.numbers_.of_part(std::uint32_t(p));
+                    const double area = double(area_of_part_[p]);
+                    sums[s].change[solver_.group_[p]] += area * glm::dvec3(now[n] - before[n]);
+                    sums[s].now[solver_.group_[p]] += area * glm::dvec3(now[n]);
+                }
+            });
+        for (const Sums& one : sums)
+            for (std::uint32_t g = 0; g < size_; ++g) {
+                change[g] += one.change[g];
+                mean[g] += one.now[g];
+            }
         for (std::uint32_t g = 0; g < size_; ++g) {
             change[g] /= std::max(area_[g], kMinArea);
             mean[g] /= std::max(area_[g], kMinArea);
@@ -114,8 +140,10 @@ public:
                                                              1.0 / kMaxFactor, kMaxFactor)
                                                 : 1.0;
             }
-        for_each_part([&](std::uint32_t p, double) {
-            now[solver_.numbers_.of_part(p)] *= glm::vec4(factor[solver_.group_[p]], 0.0);
+        for_each_span(area_of_part_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+            for (std::size_t p = first; p < last; ++p)
+                now[solver_.numbers_.of_part(std::uint32_t(p))] *=
+                    glm::vec4(factor[solver_.group_[p]], 0.0);
         });
         double squares = 0.0, sent = 0.0;
         for (std::uint32_t g = 0; g < size_; ++g)
@@ -128,52 +156,63 @@ public:
     }
 
 private:
+    /// Calls visit(s, first, last) in parallel for the kSums spans of `count` elements.
     template <class Visit>
-    void for_each_part(const Visit& visit) const
+    static void for_each_span(std::size_t count, const Visit& visit)
     {
-        const std::vector<Lumel>& lumels = solver_.work_.lumels();
-        for (std::uint32_t i = 0; i < lumels.size(); ++i) {
-            const std::uint32_t first = solver_.parts_.first(i), end = solver_.parts_.end(i);
-            for (std::uint32_t p = first; p < end; ++p)
-                visit(p, double(lumels[i].area) / double(end - first));
-        }
+        parallel_for(kSums, 1, [&](std::size_t from, std::size_t to) {
+            for (std::size_t s = from; s < to; ++s)
+                visit(s, s * count / kSums, (s + 1) * count / kSums);
+        });
     }
+
+    /// Rows of K, scaled by the area of their group [m²]; those that no link leaves are empty.
+    using Rows = std::vector<std::vector<glm::dvec3>>;  ///< [groups][groups or 0]
 
     /// 1 - K.
     void count_links(const System& system)
     {
         const std::vector<std::uint32_t>& order = solver_.work_.order;
-        for (const std::vector<LinkBlock>& blocks : system.links.rounds)
-            for (std::size_t b = 0; b < blocks.size(); ++b) {
-                LinkRows rows(blocks[b]);
-                const std::size_t end = std::min((b + 1) * kLinkBlock, order.size());
-                for (std::size_t o = b * kLinkBlock; o < end; ++o)
-                    count_row(system, order[o], rows.next(solver_.parts_.is_cut(order[o])));
-            }
+        const std::size_t blocks = (order.size() + kLinkBlock - 1) / kLinkBlock;
+        std::vector<Rows> sums(kSums, Rows(size_));
+        for_each_span(blocks, [&](std::size_t s, std::size_t first, std::size_t last) {
+            for (const std::vector<LinkBlock>& round : system.links.rounds)
+                for (std::size_t b = first; b < last; ++b) {
+                    LinkRows rows(round[b]);
+                    const std::size_t end = std::min((b + 1) * kLinkBlock, order.size());
+                    for (std::size_t o = b * kLinkBlock; o < end; ++o)
+                        count_row(system, order[o], rows.next(solver_.parts_.is_cut(order[o])),
+                                  sums[s]);
+                }
+        });
+        for (const Rows& rows : sums)
+            for (std::size_t a = 0; a < size_; ++a)
+                for (std::size_t b = 0; b < rows[a].size(); ++b)
+                    for (int c = 0; c < 3; ++c)
+                        inverse_[c][a * size_ + b] -= rows[a][b][c] / std::max(area_[a], kMinArea);
         for (std::uint32_t g = 0; g < size_; ++g)
             for (int c = 0; c < 3; ++c)
                 inverse_[c][std::size_t(g) * size_ + g] += 1.0;
     }
 
-    void count_row(const System& system, std::uint32_t i, const LinkRow& row)
+    void count_row(const System& system, std::uint32_t i, const LinkRow& row, Rows& sums) const
     {
         const SubLumels& parts = solver_.parts_;
-        const std::uint32_t first = parts.first(i), last = parts.end(i);
-        const Lumel& lumel = solver_.work_.lumels()[i];
-        const auto add = [&](std::size_t k, LinkEnd to, const glm::vec3& weight) {
+        const std::vector<float>& rays = system.source.rays;
+        const glm::dvec3 albedo(solver_.work_.lumels()[i].albedo);
+        const auto add = [&](std::size_t k, LinkEnd to, const glm::dvec3& weight) {
             if (!solver_.numbers_.is_part(to.number()) ||
-                system.source.rays[solver_.numbers_.part(to.number())] == 0.0f)
+                rays[solver_.numbers_.part(to.number())] == 0.0f)
                 return;
-            const std::uint32_t p = first + row.leaves(parts, i, k), a = solver_.group_[p];
-            const double share = double(row.weight(k)) * double(lumel.area) / double(last - first) /
-                                 std::max(area_[a], kMinArea) / double(system.source.rays[p]);
-            const std::uint32_t b = solver_.group_[solver_.numbers_.part(to.number())];
-            for (int c = 0; c < 3; ++c)
-                inverse_[c][std::size_t(a) * size_ + b] -=
-                    share * double(lumel.albedo[c] * weight[c]);
+            const std::uint32_t p = parts.first(i) + row.leaves(parts, i, k);
+            std::vector<glm::dvec3>& sum = sums[solver_.group_[p]];
+            if (sum.empty())
+                sum.assign(size_, glm::dvec3(0.0));
+            sum[solver_.group_[solver_.numbers_.part(to.number())]] +=
+                double(row.weight(k) * area_of_part_[p] / rays[p]) * albedo * weight;
         };
         for (std::size_t k = 0; k < row.ends.size(); ++k)
-            add(k, row.ends[k], glm::vec3(1.0f));
+            add(k, row.ends[k], glm::dvec3(1.0));
         for (const NearLink& near : row.near)
             add(near.slot - row.first_slot, near.end, glm::unpackF3x9_E1x5(near.weight));
     }
@@ -206,8 +245,9 @@ private:
 
     const LinkSolver& solver_;
     std::uint32_t size_;
-    std::vector<double> inverse_[3];  ///< [groups][groups] (1 - K)⁻¹ of each channel
-    std::vector<double> area_;        ///< [groups] [m²]
+    std::vector<double> inverse_[3];   ///< [groups][groups] (1 - K)⁻¹ of each channel
+    std::vector<double> area_;         ///< [groups] [m²]
+    std::vector<float> area_of_part_;  ///< [P] [m²]
 };
 
 LinkSolver::LinkSolver(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers)
@@ -253,10 +293,17 @@ LinkSolver::Change LinkSolver::sweep_block(const System& system, std::size_t b, 
     for (std::size_t o = b * kLinkBlock; o < end; ++o) {
         const std::uint32_t i = work_.order[o], first = parts_.first(i), last = parts_.end(i);
         std::array<glm::vec4, kMaxParts> sums;
-        for (std::uint32_t p = first; p < last; ++p)
-            sums[p - first] = glm::vec4(system.source.light[p], 0.0f);
-        for (LinkRows& rows : rounds)
-            add_row(rows.next(parts_.is_cut(i)), parts_, i, sent, sums);
+        if (parts_.is_cut(i)) {
+            for (std::uint32_t p = first; p < last; ++p)
+                sums[p - first] = system.source.light[p];
+            for (LinkRows& rows : rounds)
+                add_row(rows.next(true), parts_, i, sent, sums);
+        } else {
+            glm::vec4 sum = system.source.light[first];
+            for (LinkRows& rows : rounds)
+                sum = sum_of_row(rows.next(false), sent, sum);
+            sums[0] = sum;
+        }
         for (std::uint32_t p = first; p < last; ++p) {
             // Links to one without rays do not count: that of its lumel's other parts would leak.
             const float rays = system.source.rays[p];

@@ -146,7 +146,7 @@ TEST(RayGuide, UnevenRaysBringTheSameLight)
         glm::dvec3 sum(0.0);
         for (std::uint32_t p = 0; p < parts.count(); ++p)
             if (source.rays[p] > 0.0f)
-                sum += glm::dvec3(source.light[p] / source.rays[p]);
+                sum += glm::dvec3(source.light[p]) / double(source.rays[p]);
         return sum / double(parts.count());
     };
     const glm::dvec3 even = light_by(nullptr), uneven = light_by(&guide);
