@@ -37,19 +37,39 @@ private:
 /// Distance of points near the corners of a flat lumel from them, in its ray offsets.
 constexpr float kInsideCorner = 2.0f;
 
+/// Rays that are cast together.
+struct RaysTogether {
+    std::vector<RaySpan> rays;
+    std::vector<glm::vec3> transmittance;  ///< [rays]
+
+    void cast(const RayScene& scene)
+    {
+        transmittance.resize(rays.size());
+        scene.transmittance(rays, transmittance);
+    }
+    bool sees(std::size_t ray) const { return transmittance[ray] != glm::vec3(0.0f); }
+};
+
 /// Joins cells at an offset from each other whose points are mutually visible.
-void join_along(const SeenCells& seen, int dx, int dy, Joined& joined)
+void join_along(const SeenCells& seen, int dx, int dy, const RayScene& scene, RaysTogether& cast,
+                Joined& joined)
 {
     const CellPoints& points = seen.points();
+    std::array<std::pair<std::uint32_t, std::uint32_t>, kCells> pairs;
+    cast.rays.clear();
     for (int y = 0; y + dy < kCellSide; ++y)
         for (int x = std::max(0, -dx); x < kCellSide && x + dx < kCellSide; ++x) {
             const auto a = std::uint32_t(y * kCellSide + x);
             const auto b = std::uint32_t((y + dy) * kCellSide + x + dx);
             if (!points.has(a) || !points.has(b) || joined.root(a) == joined.root(b))
                 continue;
-            if (seen.sees(points.point[a], b))
-                joined.join(a, b);
+            pairs[cast.rays.size()] = {a, b};
+            cast.rays.push_back(seen.ray_to(points.point[a], b));
         }
+    cast.cast(scene);
+    for (std::size_t n = 0; n < cast.rays.size(); ++n)
+        if (cast.sees(n) && joined.root(pairs[n].first) != joined.root(pairs[n].second))
+            joined.join(pairs[n].first, pairs[n].second);
 }
 
 /// The nearest cell on the grid that has a point.
@@ -83,40 +103,46 @@ void for_each_corner(const WorldLumels& world, std::size_t i, const Visit& visit
         }
 }
 
-/// True if a corner of a flat lumel does not see the nearest cell: geometry covers a sliver of it
-/// that no cell's point is in.
-bool has_sliver(const WorldLumels& world, std::size_t i, const SeenCells& seen)
-{
-    bool found = false;
-    if (world[i].flat)
-        for_each_corner(world, i, [&](const LumelPoint& corner) {
-            found = found || !seen.sees(corner, seen.points().nearest(corner.position));
-        });
-    return found;
-}
+/// Of a lumel.
+struct Cover {
+    /// A corner of a flat lumel does not see the nearest cell: geometry covers a sliver of it that
+    /// no cell's point is in.
+    bool has_sliver = false;
+    /// Rays along the normal, as long as the lumel's side, meet something from some points of a
+    /// flat lumel but not from others.
+    bool is_half = false;
+};
 
-/// True if rays along the normal, as long as the lumel's side, meet something from some points of a
-/// flat lumel but not from others.
-bool is_half_covered(const WorldLumels& world, const RayScene& rays, std::size_t i,
-                     const CellPoints& points, std::uint32_t seed)
+Cover find_cover(const WorldLumels& world, const RayScene& scene, std::size_t i,
+                 const SeenCells& seen, std::uint32_t seed, RaysTogether& cast)
 {
     const WorldLumel& lumel = world[i];
+    Cover cover;
     if (!lumel.flat)
-        return false;
+        return cover;
+    cast.rays.clear();
+    for_each_corner(world, i, [&](const LumelPoint& corner) {
+        cast.rays.push_back(seen.ray_to(corner, seen.points().nearest(corner.position)));
+    });
+    const std::size_t corners = cast.rays.size();
     const float ray_offset = ray_offset_for(lumel.reach);
-    bool covered = false, open = false;
-    const auto look = [&](const LumelPoint& from) {
-        if (covered && open)
-            return;
-        const bool sees = rays.sees(from.position + ray_offset * lumel.normal,
-                                    from.position + lumel.size * lumel.normal, 0.0f, seed);
-        (sees ? open : covered) = true;
+    const auto look_up = [&](const LumelPoint& from) {
+        cast.rays.push_back(ray_between(from.position + ray_offset * lumel.normal,
+                                        from.position + lumel.size * lumel.normal, 0.0f, seed));
     };
-    for_each_corner(world, i, look);
+    for_each_corner(world, i, look_up);
     for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
-        if (points.has(c))
-            look(points.point[c]);
-    return covered && open;
+        if (seen.points().has(c))
+            look_up(seen.points().point[c]);
+    cast.cast(scene);
+    std::size_t open = 0;
+    for (std::size_t n = 0; n < cast.rays.size(); ++n)
+        if (n >= corners)
+            open += cast.sees(n);
+        else if (!cast.sees(n))
+            cover.has_sliver = true;
+    cover.is_half = open > 0 && open < cast.rays.size() - corners;
+    return cover;
 }
 
 /// Stores two bits per cell: the number of its sub-lumel in the lumel. Returns the number of
@@ -203,11 +229,16 @@ SeenCells::SeenCells(const WorldLumels& world, const Cells& cells, const RayScen
 {
 }
 
-bool SeenCells::sees(const LumelPoint& from, std::uint32_t cell) const
+RaySpan SeenCells::ray_to(const LumelPoint& from, std::uint32_t cell) const
 {
     const LumelPoint& to = points_.point[cell];
-    return rays_.sees(from.position + ray_offset_ * from.normal,
-                      to.position + ray_offset_ * to.normal, 0.0f, seed_);
+    return ray_between(from.position + ray_offset_ * from.normal,
+                       to.position + ray_offset_ * to.normal, 0.0f, seed_);
+}
+
+bool SeenCells::sees(const LumelPoint& from, std::uint32_t cell) const
+{
+    return rays_.transmittance(ray_to(from, cell)) != glm::vec3(0.0f);
 }
 
 std::uint32_t SeenCells::nearest(const LumelPoint& from) const
@@ -259,19 +290,19 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
       code_(world.size(), 0)
 {
     parallel_for(world.size(), kCellsPerTask, [&](std::size_t first, std::size_t last) {
+        RaysTogether cast;
         for (std::size_t i = first; i < last; ++i) {
             if (lumels.lumels[i].flags & kLumelBuried)
                 continue;
             const SeenCells seen = seen_cells(i);
             Joined joined;
-            join_along(seen, 1, 0, joined);
-            join_along(seen, 0, 1, joined);
-            join_along(seen, 1, 1, joined);
-            join_along(seen, -1, 1, joined);
+            for (const auto& [dx, dy] : {std::pair(1, 0), {0, 1}, {1, 1}, {-1, 1}})
+                join_along(seen, dx, dy, rays, cast, joined);
             parts_[i] = std::uint8_t(number_parts(seen.points(), joined, code_[i]));
-            if (is_cut(i) || has_sliver(world, i, seen))
+            const Cover cover = find_cover(world, rays, i, seen, seed_of(i), cast);
+            if (is_cut(i) || cover.has_sliver)
                 flags_[i] |= kHasHidden;
-            if (lumel::is_half_covered(world, rays, i, seen.points(), seed_of(i)))
+            if (cover.is_half)
                 flags_[i] |= kHalfCovered;
         }
     });

@@ -84,6 +84,7 @@ public:
 
     const CellPoints& points() const { return points_; }
     bool sees(const LumelPoint& from, std::uint32_t cell) const;
+    RaySpan ray_to(const LumelPoint& from, std::uint32_t cell) const;
     /// The nearest one, or kNoCell.
     std::uint32_t nearest(const LumelPoint& from) const;
     /// The nearest one; else kNoCell if the lumel is flat, as behind a wall's foot, or the given

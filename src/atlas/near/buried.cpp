@@ -1,6 +1,10 @@
 #include "atlas/near/buried.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
+#include <numeric>
 
 #include "atlas/near/hemisphere.h"
 #include "atlas/near/sequence.h"
@@ -27,106 +31,208 @@ constexpr float kMinOpen = 0.1f;
 /// A surface closer than this above a lumel, relative to its size, lies on it.
 constexpr float kContact = 0.01f;
 
-bool is_shut_in(const Scene& scene, const RayScene& rays, const WorldLumel& lumel,
-                const LumelPoint& point, const glm::vec3& direction)
-{
-    RayHit hit;
-    const glm::vec3 origin = point.position + lumel.ray_offset * point.normal;
-    if (!rays.closest(origin, direction, 0.0f, INFINITY, kBlendSeed, hit))
-        return false;
-    if (!hit.front && !is_double_sided(scene, hit))
-        return true;
-    return hit.distance * glm::dot(direction, point.normal) < kContact * lumel.size;
-}
-
-/// Tests whether points of a lumel are hidden. Tries the last successful direction first.
+/// Tests whether points of a lumel are hidden: all rays from them are shut in. Casts the rays along
+/// one direction together. Tries the last successful direction first.
 class HiddenPoints {
 public:
     HiddenPoints(const LumelsInScene& look, std::size_t i) : look_(look), lumel_(i) {}
 
-    /// True if all rays from a point are blocked.
-    bool operator()(const LumelPoint& point)
+    /// hidden [points].
+    void operator()(std::span<const LumelPoint> points, std::span<bool> hidden)
     {
-        for (std::uint32_t k = 0; k < kDirections; ++k) {
-            const std::uint32_t d = k == 0 ? last_ : k <= last_ ? k - 1 : k;
-            glm::vec2 st = sobol_pair(d, hash_two(std::uint32_t(lumel_), 1));
-            st.x *= 1.0f - kMinCosine * kMinCosine;  // the squared sine
-            if (!is_shut_in(look_.scene, look_.rays, look_.world[lumel_], point,
-                            direction_about(point.normal, st))) {
-                last_ = d;
-                return false;
-            }
+        std::fill(hidden.begin(), hidden.end(), true);
+        left_.resize(points.size());
+        std::iota(left_.begin(), left_.end(), 0u);
+        const std::uint32_t first = last_;
+        for (std::uint32_t k = 0; k < kDirections && !left_.empty(); ++k) {
+            const std::uint32_t direction = k == 0 ? first : k <= first ? k - 1 : k;
+            cast(points, direction);
+            for (std::size_t r = 0; r < left_.size(); ++r)
+                if (!is_shut_in(points[left_[r]].normal, rays_[r], hits_[r])) {
+                    hidden[left_[r]] = false;
+                    last_ = direction;
+                }
+            std::erase_if(left_, [&](std::uint32_t p) { return !hidden[p]; });
         }
-        return true;
-    }
-
-    /// True if a world-space point on one of its pieces is hidden.
-    bool operator()(const Piece& piece, const glm::vec2& uv)
-    {
-        return (*this)({piece.origin + uv.x * piece.edge_u + uv.y * piece.edge_v, piece.normal});
     }
 
 private:
+    /// Casts rays from points that are hidden so far.
+    void cast(std::span<const LumelPoint> points, std::uint32_t direction)
+    {
+        glm::vec2 st = sobol_pair(direction, hash_two(std::uint32_t(lumel_), 1));
+        st.x *= 1.0f - kMinCosine * kMinCosine;  // the squared sine
+        rays_.clear();
+        glm::vec3 normal(0.0f), along(0.0f);
+        for (const std::uint32_t p : left_) {
+            if (points[p].normal != normal) {
+                normal = points[p].normal;
+                along = direction_about(normal, st);
+            }
+            rays_.push_back(ray_out(points[p].position + look_.world[lumel_].ray_offset * normal,
+                                    along, kBlendSeed));
+        }
+        hits_.resize(rays_.size());
+        look_.rays.closest(rays_, hits_);
+    }
+
+    bool is_shut_in(const glm::vec3& normal, const RaySpan& ray, const RayHit& hit) const
+    {
+        if (std::isinf(hit.distance))
+            return false;
+        if (!hit.front && !is_double_sided(look_.scene, hit))
+            return true;
+        return hit.distance * glm::dot(ray.direction, normal) < kContact * look_.world[lumel_].size;
+    }
+
     const LumelsInScene& look_;
     std::size_t lumel_;
     std::uint32_t last_ = 0;
+    std::vector<std::uint32_t> left_;  ///< points that are hidden so far
+    std::vector<RaySpan> rays_;        ///< [left_]
+    std::vector<RayHit> hits_;         ///< [left_]
 };
 
 enum class Openness { open, partly, hidden };
+
+LumelPoint point_of(const Piece& piece, const glm::vec2& uv)
+{
+    return {piece.origin + uv.x * piece.edge_u + uv.y * piece.edge_v, piece.normal};
+}
 
 /// Tests a few points: near the corners of its pieces, where neighbours begin to cover it, and over
 /// the whole lumel.
 Openness first_look(const LumelsInScene& look, std::size_t i)
 {
-    HiddenPoints is_hidden(look, i);
-    bool any_open = false, any_hidden = false;
-    const auto add = [&](bool hidden) {
-        (hidden ? any_hidden : any_open) = true;
-        return any_open && any_hidden;
-    };
+    constexpr std::size_t kMostPoints = kFirstPoints + 4 * kCornerPieces;
+    std::array<LumelPoint, kMostPoints> points;
+    std::array<bool, kMostPoints> hidden;
+    std::size_t count = 0;
     for (std::uint32_t k = 0; k < kFirstPoints; ++k)
-        if (add(is_hidden(look.world.point_on(i, sobol_pair(k, 0)))))
-            return Openness::partly;
+        points[count++] = look.world.point_on(i, sobol_pair(k, 0));
     const std::span<const Piece> pieces = look.world.pieces(look.world[i]);
     for (const Piece& piece : pieces.first(std::min(pieces.size(), kCornerPieces)))
         for (const glm::vec2& uv :
              {glm::vec2(kFromEdges), glm::vec2(1.0f - 2.0f * kFromEdges, kFromEdges),
               glm::vec2(kFromEdges, 1.0f - 2.0f * kFromEdges),
               glm::vec2(piece.parallelogram ? 1.0f - kFromEdges : 0.5f - kFromEdges)})
-            if (add(is_hidden(piece, uv)))
-                return Openness::partly;
-    return any_open ? Openness::open : Openness::hidden;
+            points[count++] = point_of(piece, uv);
+    const std::span tested = std::span(hidden).first(count);
+    HiddenPoints(look, i)(std::span(points).first(count), tested);
+    const auto hides = std::size_t(std::ranges::count(tested, true));
+    return hides == 0 ? Openness::open : hides == count ? Openness::hidden : Openness::partly;
 }
 
-/// Reduces a piece to its open part, in strips. `swapped`: strips are along v instead of u.
+/// Points of a lumel that are tested together, and where their results go.
+class Tests {
+public:
+    void add(const LumelPoint& point, bool& is_open)
+    {
+        points_.push_back(point);
+        open_.push_back(&is_open);
+    }
+
+    void run(HiddenPoints& are_hidden)
+    {
+        const auto hidden = std::make_unique<bool[]>(points_.size());
+        are_hidden(points_, {hidden.get(), points_.size()});
+        for (std::size_t n = 0; n < points_.size(); ++n)
+            *open_[n] = !hidden[n];
+        points_.clear();
+        open_.clear();
+    }
+
+private:
+    std::vector<LumelPoint> points_;
+    std::vector<bool*> open_;  ///< [points]
+};
+
+/// Reduces a piece to its open part, in strips along u or v, step by step: each adds points to
+/// tests, which run before the next. Must not move meanwhile.
 class Strips {
 public:
     Strips(const LumelsInScene& look, std::size_t i, std::uint32_t index, int count)
-        : is_hidden_(look, i),
-          piece_(look.lumels.pieces[look.lumels.lumels[i].first_piece + index]),
+        : piece_(look.lumels.pieces[look.lumels.lumels[i].first_piece + index]),
           in_world_(look.world.pieces(look.world[i])[index]),
           count_(count)
     {
-        // Strips run in the direction of more changes. In a parallelogram both grids have the same
-        // points, in a triangle nearly so.
-        open_ = grid(false);
+    }
+
+    void test_grid(Tests& tests)
+    {
+        for (int line = 0; line < count_; ++line) {
+            const float across = (float(line) + 0.5f) / float(count_);
+            for (int k = 0; k < count_; ++k)
+                tests.add(point(length_at(across) * (float(k) + 0.5f) / float(count_), across),
+                          open_[at(line, k)]);
+        }
+    }
+
+    /// Turns strips to the direction of more changes. In a parallelogram both grids have the same
+    /// points, in a triangle nearly so.
+    void turn(Tests& tests)
+    {
         Grid turned{};
         for (int line = 0; line < count_; ++line)
             for (int k = 0; k < count_; ++k)
                 turned[at(line, k)] = open_[at(k, line)];
         swapped_ = changes(turned) > changes(open_);
-        if (swapped_)
-            open_ = piece_.parallelogram ? turned : grid(true);
+        if (!swapped_)
+            return;
+        if (piece_.parallelogram)
+            open_ = turned;
+        else
+            test_grid(tests);
+    }
+
+    void test_ends(Tests& tests)
+    {
+        for (int strip = 0; strip < count_; ++strip)
+            for (int k : {-1, count_})
+                tests.add(point(place(strip, k), middle(strip)), ends_[strip][k < 0 ? 0 : 1]);
+    }
+
+    void find_edges()
+    {
+        for (int strip = 0; strip < count_; ++strip)
+            for (int k = 0; k <= count_; ++k)
+                if (is_open(strip, k) != is_open(strip, k - 1)) {
+                    const float before = place(strip, k - 1), after = place(strip, k);
+                    edges_.push_back(is_open(strip, k) ? Edge{strip, after, before}
+                                                       : Edge{strip, before, after});
+                }
+    }
+
+    void test_edges(Tests& tests)
+    {
+        for (Edge& edge : edges_)
+            tests.add(point(edge.middle(), middle(edge.strip)), edge.middle_is_open);
+    }
+
+    /// Halves what is between the points of each edge.
+    void narrow_edges()
+    {
+        for (Edge& edge : edges_)
+            (edge.middle_is_open ? edge.open : edge.hidden) = edge.middle();
     }
 
     /// Appends the open part of each strip, in the lumel's frame.
-    void append_open_parts(std::vector<Piece>& parts)
+    void append_open_parts(std::vector<Piece>& parts) const
     {
         const float step = 1.0f / float(count_);
+        auto edge = edges_.begin();
         for (int strip = 0; strip < count_; ++strip) {
-            const float low = step * float(strip), middle = low + 0.5f * step;
-            for (const auto& [begin, end] : open_runs(strip, middle))
-                append_run(low, step, begin, end, parts);
+            const float low = step * float(strip);
+            bool open = is_open(strip, -1);
+            float begin = 0.0f;
+            for (; edge != edges_.end() && edge->strip == strip; ++edge) {
+                if (open)
+                    append_run(low, step, begin, edge->middle(), parts);
+                open = !open;
+                begin = edge->middle();
+            }
+            if (open)
+                append_run(low, step, begin, length_at(middle(strip)), parts);
         }
     }
 
@@ -135,25 +241,38 @@ private:
     using Grid = std::array<bool, std::size_t(kStrips) * kStrips>;
     static std::size_t at(int line, int k) { return std::size_t(line) * kStrips + std::size_t(k); }
 
-    bool is_open(float along, float across, bool swapped)
+    /// Between an open and a hidden point of a strip.
+    struct Edge {
+        int strip;
+        float open, hidden;  ///< along the strip
+        bool middle_is_open = false;
+
+        float middle() const { return 0.5f * (open + hidden); }
+    };
+
+    LumelPoint point(float along, float across) const
     {
-        return !is_hidden_(in_world_,
-                           swapped ? glm::vec2(across, along) : glm::vec2(along, across));
+        return point_of(in_world_, swapped_ ? glm::vec2(across, along) : glm::vec2(along, across));
     }
+
+    /// Position of a strip's centre line.
+    float middle(int strip) const { return (float(strip) + 0.5f) / float(count_); }
 
     /// Length of the piece along its strips, at a position across them.
     float length_at(float across) const { return piece_.parallelogram ? 1.0f : 1.0f - across; }
 
-    Grid grid(bool swapped)
+    /// Place of a tested point along its strip; -1 and count_: near the ends.
+    float place(int strip, int k) const
     {
-        Grid open{};
-        for (int line = 0; line < count_; ++line) {
-            const float across = (float(line) + 0.5f) / float(count_);
-            for (int k = 0; k < count_; ++k)
-                open[at(line, k)] =
-                    is_open(length_at(across) * (float(k) + 0.5f) / float(count_), across, swapped);
-        }
-        return open;
+        const float length = length_at(middle(strip)), step = length / float(count_);
+        return k < 0         ? kFromEdges * step
+               : k == count_ ? length - kFromEdges * step
+                             : (float(k) + 0.5f) * step;
+    }
+
+    bool is_open(int strip, int k) const
+    {
+        return k < 0 ? ends_[strip][0] : k == count_ ? ends_[strip][1] : open_[at(strip, k)];
     }
 
     /// Number of changes between open and hidden along the grid's lines.
@@ -164,39 +283,6 @@ private:
             for (int k = 1; k < count_; ++k)
                 changes += open[at(line, k)] != open[at(line, k - 1)];
         return changes;
-    }
-
-    /// Boundary between an open and a hidden point of a strip, by bisection.
-    float edge_between(float open, float hidden, float across)
-    {
-        for (int step = 0; step < kStripBisections; ++step) {
-            const float middle = 0.5f * (open + hidden);
-            (is_open(middle, across, swapped_) ? open : hidden) = middle;
-        }
-        return 0.5f * (open + hidden);
-    }
-
-    /// Open intervals of a strip's centre line.
-    std::vector<std::pair<float, float>> open_runs(int strip, float across)
-    {
-        const float length = length_at(across), step = length / float(count_);
-        std::vector<std::pair<float, float>> runs;
-        float before = kFromEdges * step;
-        bool was_open = is_open(before, across, swapped_);
-        float begin = 0.0f;
-        for (int k = 0; k <= count_; ++k) {
-            const float place = k < count_ ? (float(k) + 0.5f) * step : length - kFromEdges * step;
-            const bool open = k < count_ ? open_[at(strip, k)] : is_open(place, across, swapped_);
-            if (open && !was_open)
-                begin = edge_between(place, before, across);
-            else if (!open && was_open)
-                runs.emplace_back(begin, edge_between(before, place, across));
-            was_open = open;
-            before = place;
-        }
-        if (was_open)
-            runs.emplace_back(begin, length);
-        return runs;
     }
 
     /// Appends an interval of a strip; at the long side of a triangle the strip ends in a triangle.
@@ -221,12 +307,13 @@ private:
                 parallelogram ? 1u : 0u};
     }
 
-    HiddenPoints is_hidden_;
     const Piece& piece_;
     const Piece& in_world_;
-    int count_;  ///< ≤ kStrips
-    bool swapped_ = false;
+    int count_;             ///< ≤ kStrips
+    bool swapped_ = false;  ///< strips are along v
     Grid open_{};
+    std::array<std::array<bool, 2>, kStrips> ends_{};  ///< [strips] open
+    std::vector<Edge> edges_;                          ///< along each strip, one after another
 };
 
 float local_area(const Piece& piece)
@@ -247,11 +334,32 @@ OpenPart find_open_part(const LumelsInScene& look, std::size_t i)
     const Lumel& lumel = look.lumels.lumels[i];
     OpenPart part{i, {}, 0.0f};
     const int side = std::max(2, int(float(kStrips) / std::sqrt(float(lumel.piece_count))));
+    std::vector<Strips> strips;
+    strips.reserve(lumel.piece_count);
     float whole = 0.0f, open = 0.0f;
     for (std::uint32_t k = 0; k < lumel.piece_count; ++k) {
         whole += local_area(look.lumels.pieces[lumel.first_piece + k]);
-        Strips(look, i, k, side).append_open_parts(part.pieces);
+        strips.emplace_back(look, i, k, side);
     }
+    HiddenPoints are_hidden(look, i);
+    Tests tests;
+    const auto test = [&](void (Strips::*add)(Tests&)) {
+        for (Strips& one : strips)
+            (one.*add)(tests);
+        tests.run(are_hidden);
+    };
+    test(&Strips::test_grid);
+    test(&Strips::turn);
+    test(&Strips::test_ends);
+    for (Strips& one : strips)
+        one.find_edges();
+    for (int step = 0; step < kStripBisections; ++step) {
+        test(&Strips::test_edges);
+        for (Strips& one : strips)
+            one.narrow_edges();
+    }
+    for (const Strips& one : strips)
+        one.append_open_parts(part.pieces);
     for (Piece& piece : part.pieces)
         piece.share = open += local_area(piece);
     for (Piece& piece : part.pieces)

@@ -1,6 +1,8 @@
 #pragma once
 // Embree 3 or 4, whichever is installed: one name for calls that differ.
 
+#include <cstddef>
+
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -8,6 +10,9 @@
 #endif
 
 namespace lumel {
+
+/// Rays of a packet.
+inline constexpr std::size_t kEmbreePacket = 16;
 
 #if RTC_VERSION_MAJOR >= 4
 
@@ -27,12 +32,32 @@ inline void find_occluder(RTCScene scene, EmbreeContext& context, RTCRay& ray)
     rtcOccluded1(scene, &ray, &arguments);
 }
 
+/// The same for a packet. valid: -1 for rays that are cast, 0 for others.
+inline void find_occluder(RTCScene scene, EmbreeContext& context, const int* valid, RTCRay16& rays)
+{
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &context;
+    rtcOccluded16(valid, scene, &rays, &arguments);
+}
+
 inline void find_closest(RTCScene scene, EmbreeContext& context, RTCRayHit& query)
 {
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
     arguments.context = &context;
     rtcIntersect1(scene, &query, &arguments);
+}
+
+/// Of rays that go together. valid: -1 for rays that are cast, 0 for others.
+inline void find_closest(RTCScene scene, EmbreeContext& context, const int* valid,
+                         RTCRayHit16& query)
+{
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcIntersect16(valid, scene, &query, &arguments);
 }
 
 #else
@@ -50,9 +75,23 @@ inline void find_occluder(RTCScene scene, EmbreeContext& context, RTCRay& ray)
     rtcOccluded1(scene, &context, &ray);
 }
 
+/// The same for a packet. valid: -1 for rays that are cast, 0 for others.
+inline void find_occluder(RTCScene scene, EmbreeContext& context, const int* valid, RTCRay16& rays)
+{
+    rtcOccluded16(valid, scene, &context, &rays);
+}
+
 inline void find_closest(RTCScene scene, EmbreeContext& context, RTCRayHit& query)
 {
     rtcIntersect1(scene, &context, &query);
+}
+
+/// Of rays that go together. valid: -1 for rays that are cast, 0 for others.
+inline void find_closest(RTCScene scene, EmbreeContext& context, const int* valid,
+                         RTCRayHit16& query)
+{
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect16(valid, scene, &context, &query);
 }
 
 #endif

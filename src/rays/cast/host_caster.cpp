@@ -24,8 +24,7 @@ public:
                        std::span<glm::vec3> transmittance) const override
     {
         assert(rays.size() == transmittance.size());
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            transmittance[i] = rays_.transmittance(rays[i]);
+        rays_.transmittance(rays, transmittance);
     }
 
     std::size_t batch() const override { return kHostBatch; }

@@ -1,6 +1,7 @@
 #include "rays/cast/ray_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -18,6 +19,7 @@ constexpr float kLift = 1e-5f;
 
 /// Coloured glass on a ray.
 struct PassedGlass {
+    std::uint32_t ray = 0;  ///< of its packet
     std::uint32_t part = 0, triangle = 0;
     float distance = 0.0f;
     glm::vec3 tint{1.0f};
@@ -25,29 +27,30 @@ struct PassedGlass {
 
 /// Embree's query context with the data that cut-outs need.
 struct QueryContext {
-    EmbreeContext embree;  // first, so that Embree's pointer is also ours
-    std::uint32_t seed;
+    EmbreeContext embree;             // first, so that Embree's pointer is also ours
+    const std::uint32_t* seeds;       ///< [rays] by Embree's ID of a ray
     std::vector<PassedGlass> passed;  ///< in any order, possibly beyond the hit
 
     /// Embree may test a triangle more than once.
     void pass(const PassedGlass& glass)
     {
         const auto same = [&](const PassedGlass& other) {
-            return other.part == glass.part && other.triangle == glass.triangle;
+            return other.ray == glass.ray && other.part == glass.part &&
+                   other.triangle == glass.triangle;
         };
         if (std::none_of(passed.begin(), passed.end(), same))
             passed.push_back(glass);
     }
 
     /// Multiplies in the order of the parts: the order of hits depends on the BVHs.
-    glm::vec3 tint_before(float distance)
+    glm::vec3 tint_before(float distance, std::uint32_t ray = 0)
     {
         std::sort(passed.begin(), passed.end(), [](const PassedGlass& a, const PassedGlass& b) {
             return std::pair(a.part, a.triangle) < std::pair(b.part, b.triangle);
         });
         glm::vec3 tint(1.0f);
         for (const PassedGlass& glass : passed)
-            if (glass.distance < distance)
+            if (glass.ray == ray && glass.distance < distance)
                 tint *= glass.tint;
         return tint;
     }
@@ -92,27 +95,33 @@ std::optional<glm::vec3> tint_through(const TracedPart& part, std::uint32_t tria
 /// Embree's filter: rejects candidate hits that the ray passes.
 void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
 {
-    if (candidate->valid[0] != -1)
-        return;
     const TracedPart& part = *static_cast<const TracedPart*>(candidate->geometryUserPtr);
-    const std::uint32_t triangle = RTCHitN_primID(candidate->hit, candidate->N, 0);
     auto& context = *reinterpret_cast<QueryContext*>(candidate->context);
-    const std::optional<glm::vec3> tint = tint_through(
-        part, triangle,
-        {RTCHitN_u(candidate->hit, candidate->N, 0), RTCHitN_v(candidate->hit, candidate->N, 0)},
-        context.seed);
-    if (!tint)
-        return;
-    candidate->valid[0] = 0;
-    if (*tint != glm::vec3(1.0f))
-        context.pass({part.number, triangle, RTCRayN_tfar(candidate->ray, candidate->N, 0), *tint});
+    const unsigned int count = candidate->N;
+    for (unsigned int n = 0; n < count; ++n) {
+        if (candidate->valid[n] != -1)
+            continue;
+        const std::uint32_t triangle = RTCHitN_primID(candidate->hit, count, n);
+        const std::uint32_t ray = RTCRayN_id(candidate->ray, count, n);
+        const std::optional<glm::vec3> tint =
+            tint_through(part, triangle,
+                         {RTCHitN_u(candidate->hit, count, n), RTCHitN_v(candidate->hit, count, n)},
+                         context.seeds[ray]);
+        if (!tint)
+            continue;
+        candidate->valid[n] = 0;
+        if (*tint != glm::vec3(1.0f))
+            context.pass(
+                {ray, part.number, triangle, RTCRayN_tfar(candidate->ray, count, n), *tint});
+    }
 }
 
-QueryContext query_context(std::uint32_t seed)
+/// seeds: must outlive the context.
+QueryContext query_context(const std::uint32_t* seeds)
 {
     QueryContext context{};
     start_query(context.embree);
-    context.seed = seed;
+    context.seeds = seeds;
     return context;
 }
 
@@ -141,10 +150,92 @@ std::vector<std::uint32_t> all_instances(const Scene& scene)
 /// Transmittance along the ray.
 glm::vec3 tint_along(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
 {
-    QueryContext context = query_context(seed);
+    QueryContext context = query_context(&seed);
     find_occluder(tree, context.embree, ray);
     const bool clear = ray.tfar >= 0.0f;  // Embree marks an occluded ray by -infinity
     return clear ? context.tint_before(std::numeric_limits<float>::infinity()) : glm::vec3(0.0f);
+}
+
+/// Sets what follows from Embree's hit; the tint remains.
+void set_hit(const TracedPart& part, const RTCHit& found, float distance, const glm::vec3& origin,
+             const glm::vec3& direction, RayHit& hit)
+{
+    hit.instance = part.instance;
+    hit.primitive = part.primitive;
+    hit.triangle = found.primID;
+    hit.barycentric = {found.u, found.v};
+    hit.distance = distance;
+    hit.normal = part.winding * glm::normalize(glm::vec3(found.Ng_x, found.Ng_y, found.Ng_z));
+    hit.front = glm::dot(hit.normal, direction) < 0.0f;
+    hit.ray_offset = ray_offset_for(std::max({largest_coordinate(origin + distance * direction),
+                                              distance, part.longest_edge[hit.triangle]}));
+}
+
+/// Up to kEmbreePacket rays as Embree takes them.
+struct Packet {
+    alignas(64) std::array<int, kEmbreePacket> valid{};
+    std::array<std::uint32_t, kEmbreePacket> seeds{};
+
+    /// Fills Embree's rays.
+    Packet(std::span<const RaySpan> from, RTCRay16& rays)
+    {
+        for (std::size_t n = 0; n < from.size(); ++n) {
+            const RaySpan& ray = from[n];
+            valid[n] = ray.far > ray.near ? -1 : 0;
+            seeds[n] = ray.seed;
+            rays.org_x[n] = ray.origin.x;
+            rays.org_y[n] = ray.origin.y;
+            rays.org_z[n] = ray.origin.z;
+            rays.dir_x[n] = ray.direction.x;
+            rays.dir_y[n] = ray.direction.y;
+            rays.dir_z[n] = ray.direction.z;
+            rays.tnear[n] = ray.near;
+            rays.tfar[n] = ray.far;
+            rays.time[n] = 0.0f;
+            rays.mask[n] = ~0u;
+            rays.id[n] = std::uint32_t(n);
+            rays.flags[n] = 0;
+        }
+    }
+};
+
+/// Casts up to kEmbreePacket rays.
+void transmittance_of_packet(const EmbreeTrees& trees, std::span<const RaySpan> rays,
+                             std::span<glm::vec3> transmittance)
+{
+    RTCRay16 query;
+    const Packet packet(rays, query);
+    QueryContext context = query_context(packet.seeds.data());
+    find_occluder(trees.top(), context.embree, packet.valid.data(), query);
+    for (std::size_t n = 0; n < rays.size(); ++n) {
+        const bool clear = packet.valid[n] == 0 || query.tfar[n] >= 0.0f;
+        transmittance[n] =
+            clear ? context.tint_before(std::numeric_limits<float>::infinity(), std::uint32_t(n))
+                  : glm::vec3(0.0f);
+    }
+}
+
+/// Casts up to kEmbreePacket rays.
+void closest_of_packet(const EmbreeTrees& trees, std::span<const RaySpan> rays,
+                       std::span<RayHit> hits)
+{
+    RTCRayHit16 query;
+    const Packet packet(rays, query.ray);
+    for (std::size_t n = 0; n < rays.size(); ++n)
+        query.hit.geomID[n] = query.hit.instID[0][n] = RTC_INVALID_GEOMETRY_ID;
+    QueryContext context = query_context(packet.seeds.data());
+    find_closest(trees.top(), context.embree, packet.valid.data(), query);
+    for (std::size_t n = 0; n < rays.size(); ++n) {
+        hits[n].tint = context.tint_before(query.ray.tfar[n], std::uint32_t(n));
+        if (query.hit.geomID[n] == RTC_INVALID_GEOMETRY_ID) {
+            hits[n].distance = std::numeric_limits<float>::infinity();
+            continue;
+        }
+        const RTCHit found =
+            rtcGetHitFromHitN(reinterpret_cast<RTCHitN*>(&query.hit), kEmbreePacket, unsigned(n));
+        set_hit(trees.part(found), found, query.ray.tfar[n], rays[n].origin, rays[n].direction,
+                hits[n]);
+    }
 }
 
 }  // namespace
@@ -214,6 +305,16 @@ glm::vec3 RayScene::transmittance(const RaySpan& ray) const
                       ray.seed);
 }
 
+void RayScene::transmittance(std::span<const RaySpan> rays,
+                             std::span<glm::vec3> transmittance) const
+{
+    for (std::size_t first = 0; first < rays.size(); first += kEmbreePacket) {
+        const std::size_t count = std::min(rays.size() - first, kEmbreePacket);
+        transmittance_of_packet(*trees_, rays.subspan(first, count),
+                                transmittance.subspan(first, count));
+    }
+}
+
 glm::vec3 RayScene::transmittance(const glm::vec3& from, const glm::vec3& to, float offset,
                                   std::uint32_t seed) const
 {
@@ -244,24 +345,26 @@ bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, floa
     RTCRayHit query{.ray = make_ray(origin, direction, near, far), .hit = {}};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    QueryContext context = query_context(seed);
+    QueryContext context = query_context(&seed);
     find_closest(trees_->top(), context.embree, query);
     hit.tint = context.tint_before(query.ray.tfar);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
-
-    const TracedPart& part = trees_->part(query.hit);
-    hit.instance = part.instance;
-    hit.primitive = part.primitive;
-    hit.triangle = query.hit.primID;
-    hit.barycentric = {query.hit.u, query.hit.v};
-    hit.distance = query.ray.tfar;
-    hit.normal =
-        part.winding * glm::normalize(glm::vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
-    hit.front = glm::dot(hit.normal, direction) < 0.0f;
-    hit.ray_offset = ray_offset_for(std::max({largest_coordinate(origin + hit.distance * direction),
-                                              hit.distance, part.longest_edge[hit.triangle]}));
+    set_hit(trees_->part(query.hit), query.hit, query.ray.tfar, origin, direction, hit);
     return true;
+}
+
+void RayScene::closest(std::span<const RaySpan> rays, std::span<RayHit> hits) const
+{
+    for (std::size_t first = 0; first < rays.size(); first += kEmbreePacket) {
+        const std::size_t count = std::min(rays.size() - first, kEmbreePacket);
+        if (count == 1) {
+            if (!closest(rays[first], hits[first]))
+                hits[first].distance = std::numeric_limits<float>::infinity();
+            return;
+        }
+        closest_of_packet(*trees_, rays.subspan(first, count), hits.subspan(first, count));
+    }
 }
 
 float RayScene::ray_offset(const glm::vec3& position, const glm::vec3& normal) const

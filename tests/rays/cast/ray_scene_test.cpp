@@ -1,5 +1,6 @@
 #include "rays/cast/ray_scene.h"
 
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -252,6 +253,58 @@ TEST(RayScene, GlassTintsWhatPasses)
     EXPECT_EQ(all_glass.transmittance_out(above, down, 1), thrice);
     EXPECT_FALSE(all_glass.closest(above, down, 0.0f, kFar, 1, hit));
     EXPECT_EQ(hit.tint, thrice);
+}
+
+/// Packets of any size, through a mask, a blended surface and glass, onto a wall.
+TEST(RayScene, RaysOfAPacketHitWhatTheyHitAlone)
+{
+    support::Quad mask, blend, glass, wall;
+    mask.corner.z = 0.0f;
+    blend.corner.z = -1.0f;
+    glass.corner.z = -2.0f;
+    wall.corner.z = -3.0f;
+    glass.albedo = {1.0f, 0.5f, 0.25f};
+    Scene scene = support::make_quads({mask, blend, glass, wall}).scene;
+    scene.textures.push_back({2, 1, {255, 255, 255, 255, 255, 255, 255, 0}});
+    scene.materials[0].alpha_mode = AlphaMode::mask;
+    scene.materials[0].base_color_texture.texture = 0;
+    scene.materials[0].base_color_texture.wrap_s = Wrap::clamp;
+    scene.materials[1].alpha_mode = AlphaMode::blend;
+    scene.materials[1].base_color.a = 0.3f;
+    scene.materials[2].transmission = 1.0f;
+    const RayScene rays(scene);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> number(-0.3f, 1.3f);
+    std::size_t hit = 0, tinted = 0;
+    for (std::size_t count = 0; count < 50; ++count) {
+        std::vector<RaySpan> packet;
+        const glm::vec3 down = glm::normalize(glm::vec3(0.1f, 0.05f, -1.0f));
+        for (std::size_t n = 0; n < count; ++n)
+            packet.push_back(
+                ray_out({number(random), number(random), 1.0f}, down, std::uint32_t(random())));
+        if (count > 2)
+            packet[1].far = packet[1].near;  // empty
+        std::vector<RayHit> hits(count);
+        rays.closest(packet, hits);
+        std::vector<glm::vec3> transmittance(count);
+        rays.transmittance(packet, transmittance);
+        for (std::size_t n = 0; n < count; ++n) {
+            RayHit alone;
+            const bool any = rays.closest(packet[n], alone);
+            ASSERT_EQ(std::isfinite(hits[n].distance), any) << n << " of " << count;
+            EXPECT_EQ(hits[n].tint, alone.tint);
+            EXPECT_EQ(transmittance[n], rays.transmittance(packet[n]));
+            hit += any;
+            tinted += alone.tint != glm::vec3(1.0f);
+            if (!any)
+                continue;
+            EXPECT_NEAR(hits[n].distance, alone.distance, 1e-5f);
+            EXPECT_EQ(hits[n].instance, alone.instance);
+            EXPECT_EQ(hits[n].front, alone.front);
+        }
+    }
+    EXPECT_GT(hit, 100u);
+    EXPECT_GT(tinted, 100u);
 }
 
 TEST(RayScene, KnowsItsBounds)
