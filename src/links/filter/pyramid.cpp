@@ -13,9 +13,9 @@ constexpr std::array<float, 2> kCautionDirect = {1.0f, 0.5f};
 constexpr float kLeastDetail = 0.05f, kMostDetail = 4.0f;
 /// Deviation of the window over which gains are averaged [cells]; of the finest level.
 constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
-/// Deviation of the window for local noise [cells], and the multiple of that noise above which a
-/// detail is taken for light.
-constexpr float kNoiseSpread = 1.0f, kLocalCaution = 3.0f;
+/// Deviations of the window for local noise [cells], of indirect and of direct light. A detail
+/// above this multiple of that noise is taken for light.
+constexpr float kNoiseSpreadIndirect = 1.5f, kNoiseSpreadDirect = 1.0f, kLocalCaution = 3.0f;
 /// Radius of the window in deviations.
 constexpr float kGainRadius = 2.5f;
 
@@ -102,10 +102,12 @@ void blur(std::vector<Moments>& cells, int width, int height, float spread)
 float gain_of(const Moments& sums, const Moments& next, const PyramidRule& rule, float caution)
 {
     float signal = std::max(sums.signal - caution * sums.noise(), 0.0f), noise = sums.noise();
-    if (rule.has_local_noise && next.count > 0.0f) {
+    if (next.count > 0.0f) {
         const Moments here = next * (sums.count / next.count);
-        noise = here.noise();
-        signal = std::max(signal, here.signal - kLocalCaution * noise);
+        const float stands_out = here.signal - kLocalCaution * here.noise();
+        if (rule.has_local_noise || stands_out > signal)
+            noise = here.noise();
+        signal = std::max(signal, stands_out);
     }
     if (rule.is_bounded)
         signal = std::clamp(signal, kLeastDetail * kLeastDetail * sums.bound,
@@ -173,8 +175,7 @@ std::vector<float> gains_of(const FilterChart& chart, const FitLevel<Count>& lev
     for (std::size_t cell = 0; cell < cells.size(); ++cell)
         octaves[cell] /= std::max(cells[cell].count, 1.0f);
     std::vector<Moments> next = cells;
-    if (rule.has_local_noise)
-        blur(next, level.width, level.height, kNoiseSpread);
+    blur(next, level.width, level.height, rule.noise_spread);
     cells = averaged(cells, octaves, level.width, level.height,
                      level.side == 1 ? kFinestGainSpread : kGainSpread);
     std::vector<float> gains(cells.size());
@@ -204,12 +205,18 @@ float gain_at(const FitLevel<Count>& level, const std::vector<float>& gains, int
 
 PyramidRule rule_of_indirect()
 {
-    return {.caution = kCautionIndirect, .is_bounded = true, .has_local_noise = false};
+    return {.caution = kCautionIndirect,
+            .is_bounded = true,
+            .noise_spread = kNoiseSpreadIndirect,
+            .has_local_noise = false};
 }
 
 PyramidRule rule_of_direct()
 {
-    return {.caution = kCautionDirect, .is_bounded = false, .has_local_noise = true};
+    return {.caution = kCautionDirect,
+            .is_bounded = false,
+            .noise_spread = kNoiseSpreadDirect,
+            .has_local_noise = true};
 }
 
 template <std::size_t Count>

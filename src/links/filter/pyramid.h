@@ -22,8 +22,11 @@ struct PyramidRule {
     std::span<const float> caution;
     /// Bounds the signal by the harmonic mean distance of ray hits [WH92].
     bool is_bounded;
-    /// Averages noise over few cells: beside a noisy penumbra, lumels that see all of the light or
-    /// none of it are exact.
+    /// Deviation of the window of few cells in which a detail can stand out of the noise [cells]:
+    /// lumels with many rays beside noisy ones.
+    float noise_spread;
+    /// Averages noise over that window alone: beside a noisy penumbra, lumels that see all of the
+    /// light or none of it are exact.
     bool has_local_noise;
 };
 
@@ -40,8 +43,8 @@ PyramidRule rule_of_direct();
 ///
 /// T is signal, as noise of different estimates is independent, and ν the noise of their mean, both
 /// averaged over cells nearby, of indirect light over those as far from other geometry [CPD07]; ν
-/// of direct light over the next cells only: an empirical Wiener filter. All estimates have the
-/// same gains.
+/// of direct light over the next cells only: an empirical Wiener filter. Where T over the next
+/// cells is well above their own ν, these count. All estimates have the same gains.
 template <std::size_t Count>
 std::vector<FitLight<Count>> filter_chart(const FilterChart& chart,
                                           const std::array<const Estimates*, Count>& found,

@@ -1,5 +1,6 @@
 #include "links/filter/pyramid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -123,6 +124,27 @@ TEST(Pyramid, ExactDirectLightBesideANoisyPenumbraStays)
         for (int y = 0; y < kSide; ++y)
             squares += std::pow(double(mean[chart.at(x, y)] - edge(x, y)), 2.0) / double(kSide);
         EXPECT_LT(std::sqrt(squares), x == 48 ? 0.5 : 0.04) << x;
+    }
+}
+
+/// A dark gap between things, whose lumels have many rays, close to bright and noisy ones.
+TEST(Pyramid, LightOfManyRaysBesideNoisyLumelsStays)
+{
+    const auto gap = [](int x, int) { return x < 48 ? 4.0f : x < 54 || x >= 58 ? 1.0f : 0.5f; };
+    FilterChart chart = flat_chart();
+    std::ranges::fill(chart.nearness, 0.5f);
+    Solutions found = solutions_of(gap, 3.0f);
+    const Solutions exact = solutions_of(gap, 0.001f);
+    for (std::size_t k = 0; k < found.size(); ++k)
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 48; x < kSide; ++x)
+                found[k][chart.at(x, y)] = exact[k][chart.at(x, y)];
+    const std::vector<float> mean = filtered(chart, found);
+    for (int x = 53; x < 60; ++x) {
+        double sum = 0.0;
+        for (int y = 0; y < kSide; ++y)
+            sum += double(mean[chart.at(x, y)]) / double(kSide);
+        EXPECT_NEAR(sum, gap(x, 0), 0.1) << x;
     }
 }
 
