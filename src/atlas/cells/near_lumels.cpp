@@ -1,9 +1,17 @@
 #include "atlas/cells/near_lumels.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace lumel {
+namespace {
+
+/// Hits whose places are found before their lumels.
+constexpr std::size_t kTogether = 64;
+
+}  // namespace
 
 NearLumels::NearLumels(const Scene& scene, const Atlas& atlas, const Lumels& lumels)
     : places_(scene, atlas, lumels),
@@ -24,11 +32,33 @@ std::uint32_t NearLumels::at(int x, int y, const RayHit& hit) const
     return entry.instance == hit.instance ? entry.lumel : kNoLumel;
 }
 
-std::uint32_t NearLumels::lumel(const RayHit& hit) const
+std::uint32_t NearLumels::own(const glm::vec2& place, const RayHit& hit) const
 {
-    const glm::vec2 place = places_.place(hit);
-    std::uint32_t best =
-        at(std::clamp(int(place.x), 0, width_ - 1), std::clamp(int(place.y), 0, height_ - 1), hit);
+    return at(std::clamp(int(place.x), 0, width_ - 1), std::clamp(int(place.y), 0, height_ - 1),
+              hit);
+}
+
+void NearLumels::find(std::span<const RayHit> hits, std::vector<std::uint32_t>& lumels) const
+{
+    lumels.assign(hits.size(), kNoLumel);
+    std::array<glm::vec2, kTogether> places;
+    for (std::size_t first = 0; first < hits.size(); first += kTogether) {
+        const std::size_t count = std::min(hits.size() - first, kTogether);
+        for (std::size_t n = 0; n < count; ++n)
+            if (!std::isinf(hits[first + n].distance))
+                places[n] = places_.place(hits[first + n]);
+        for (std::size_t n = 0; n < count; ++n)
+            if (!std::isinf(hits[first + n].distance))
+                lumels[first + n] = own(places[n], hits[first + n]);
+        for (std::size_t n = 0; n < count; ++n)
+            if (lumels[first + n] == kNoLumel && !std::isinf(hits[first + n].distance))
+                lumels[first + n] = lumel(places[n], hits[first + n]);
+    }
+}
+
+std::uint32_t NearLumels::lumel(const glm::vec2& place, const RayHit& hit) const
+{
+    std::uint32_t best = own(place, hit);
     if (best != kNoLumel)
         return best;
     float least = std::numeric_limits<float>::max();

@@ -41,7 +41,7 @@ struct LinkTracer::Landing {
     std::uint32_t lumel = kNoLumel;
     std::uint32_t end = 0;  ///< number, without a lumel
     std::uint32_t cell = 0;
-    float sides = 0.0f;  ///< distance in sides of the larger lumel
+    float size = 0.0f;  ///< of the lumel [m]
     glm::vec3 position{0.0f};
 };
 
@@ -95,6 +95,8 @@ struct LinkTracer::RayBatch {
     std::vector<RayHit> hits;          ///< [rays or more]
     std::vector<std::uint32_t> along;  ///< [rays] shared direction, for first rays
     bool is_cast = false;              ///< hits of first rays are known
+    std::vector<std::uint32_t> met;    ///< [rays] lumels
+    std::vector<Landing> landings;     ///< [rays]
     std::uint32_t first_rays = 0;
     std::vector<PathHit> arrivals;
 
@@ -272,6 +274,7 @@ void LinkTracer::follow(RayBatch& wave) const
         if (reflections > 0 || !wave.is_cast)
             work_.caster().closest(wave.rays, std::span(wave.hits).first(count));
         wave.arrivals.clear();
+        land(wave);
         if (reflections == 0)
             meet_first(wave);
         else
@@ -281,21 +284,33 @@ void LinkTracer::follow(RayBatch& wave) const
     }
 }
 
-/// size: of the lumel that the ray leaves.
-LinkTracer::Landing LinkTracer::land(const RaySpan& ray, const RayHit& hit, float size) const
+/// Finds where the rays of a batch land: first the lumels of all, then what is known of them, as
+/// each waits for memory.
+void LinkTracer::land(RayBatch& wave) const
+{
+    const std::span hits = std::span(wave.hits).first(wave.rays.size());
+    hits_.find(hits, wave.met);
+    wave.landings.resize(hits.size());
+    for (std::size_t r = 0; r < hits.size(); ++r)
+        wave.landings[r] = landing(wave.rays[r], hits[r], wave.met[r]);
+}
+
+LinkTracer::Landing LinkTracer::landing(const RaySpan& ray, const RayHit& hit,
+                                        std::uint32_t j) const
 {
     if (hit.distance == RayCaster::kNothing)
         return {.end = LinkNumbers::kSky};
-    const std::size_t surface = work_.scene.surfaces.index(hit.instance, hit.primitive);
-    if (!hit.front && !work_.scene.surfaces.all()[surface].double_sided)
-        return {.end = numbers_.black_on(hit.instance)};
-    const std::uint32_t j = hits_.lumel(hit);
+    if (!hit.front) {
+        const std::size_t surface = work_.scene.surfaces.index(hit.instance, hit.primitive);
+        if (!work_.scene.surfaces.all()[surface].double_sided)
+            return {.end = numbers_.black_on(hit.instance)};
+    }
     if (j == kNoLumel)
         return {.end = numbers_.lost_on(hit.instance)};
     const glm::vec3 position = ray.origin + hit.distance * ray.direction;
     return {.lumel = j,
             .cell = work_.cells.cell(j, position),
-            .sides = hit.distance / std::max(size, work_.world[j].size),
+            .size = work_.world[j].size,
             .position = position};
 }
 
@@ -310,10 +325,11 @@ void LinkTracer::meet_first(RayBatch& wave) const
         const RaySpan& ray = wave.rays[r];
         const RayHit& hit = wave.hits[r];
         const float size = work_.world[wave.lumels[n]].size;
-        const Landing at = land(ray, hit, size);
+        const Landing& at = wave.landings[r];
         const bool is_lumel = at.lumel != kNoLumel;
+        const float sides = hit.distance / std::max(size, at.size);
         if (hit.tint == glm::vec3(1.0f)) {
-            if (is_lumel ? at.sides >= kNearSides && !parts_.is_detailed(at.lumel)
+            if (is_lumel ? sides >= kNearSides && !parts_.is_detailed(at.lumel)
                          : hit.distance >= kNearSides * size) {
                 wave.ends[slot] =
                     is_lumel ? LinkEnd::of(numbers_.of_part(parts_.first(at.lumel)), at.cell)
@@ -340,9 +356,9 @@ void LinkTracer::meet_first(RayBatch& wave) const
                  .lumel = at.lumel,
                  .cell = at.cell,
                  .position = at.position,
-                 .may_be_hidden = parts_.has_hidden(at.lumel) || at.sides < kMayBeHidden,
-                 .looks_around = half || at.sides < near_for_light,
-                 .goes_on = half || at.sides < kNearSides});
+                 .may_be_hidden = parts_.has_hidden(at.lumel) || sides < kMayBeHidden,
+                 .looks_around = half || sides < near_for_light,
+                 .goes_on = half || sides < kNearSides});
         } else if (at.end == LinkNumbers::kSky)
             wave.paths.back().light = hit.tint * kPi * work_.sources.dim_sky(ray.direction);
     }
@@ -356,22 +372,23 @@ void LinkTracer::meet(RayBatch& wave, int reflections) const
         const RayHit& hit = wave.hits[r];
         Path& path = wave.paths[wave.of[r]];
         path.weight *= hit.tint;
-        const Landing at = land(ray, hit, path.size);
+        const Landing& at = wave.landings[r];
         if (at.lumel == kNoLumel) {
             path.end = LinkEnd::of(at.end);
             if (at.end == LinkNumbers::kSky)
                 path.light += path.weight * kPi * work_.sources.dim_sky(ray.direction);
             continue;
         }
-        const bool is_near = reflections < kMaxReflections &&
-                             (at.sides < kTooNear || parts_.is_half_covered(at.lumel));
+        const float sides = hit.distance / std::max(path.size, at.size);
+        const bool is_near =
+            reflections < kMaxReflections && (sides < kTooNear || parts_.is_half_covered(at.lumel));
         wave.arrivals.push_back(
             {.ray = r,
              .path = wave.of[r],
              .lumel = at.lumel,
              .cell = at.cell,
              .position = at.position,
-             .may_be_hidden = parts_.has_hidden(at.lumel) || at.sides < kMayBeHidden,
+             .may_be_hidden = parts_.has_hidden(at.lumel) || sides < kMayBeHidden,
              .looks_around = is_near,
              .goes_on = is_near});
     }

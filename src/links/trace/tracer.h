@@ -67,7 +67,8 @@ private:
     bool may_meet_moved(const RaySpan& ray, const LinkChanges& changes) const;
     void cast_bundles(const SharedDirections& shared, std::vector<RayBatch>& waves) const;
     void follow(RayBatch& wave) const;
-    Landing land(const RaySpan& ray, const RayHit& hit, float size) const;
+    void land(RayBatch& batch) const;
+    Landing landing(const RaySpan& ray, const RayHit& hit, std::uint32_t lumel) const;
     void meet_first(RayBatch& wave) const;
     void meet(RayBatch& wave, int reflections) const;
     void find_seen_cells(RayBatch& wave, int reflections) const;
