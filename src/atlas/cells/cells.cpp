@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "atlas/cells/ray_origins.h"
@@ -68,7 +69,7 @@ void join_along(const SeenCells& seen, int dx, int dy, const RayScene& scene, Ra
         }
     cast.cast(scene);
     for (std::size_t n = 0; n < cast.rays.size(); ++n)
-        if (cast.sees(n) && joined.root(pairs[n].first) != joined.root(pairs[n].second))
+        if (cast.sees(n))
             joined.join(pairs[n].first, pairs[n].second);
 }
 
@@ -103,7 +104,7 @@ void for_each_corner(const WorldLumels& world, std::size_t i, const Visit& visit
         }
 }
 
-/// Of a lumel.
+/// What geometry close above a lumel covers.
 struct Cover {
     /// A corner of a flat lumel does not see the nearest cell: geometry covers a sliver of it that
     /// no cell's point is in.
@@ -135,13 +136,13 @@ Cover find_cover(const WorldLumels& world, const RayScene& scene, std::size_t i,
         if (seen.points().has(c))
             look_up(seen.points().point[c]);
     cast.cast(scene);
-    std::size_t open = 0;
-    for (std::size_t n = 0; n < cast.rays.size(); ++n)
-        if (n >= corners)
-            open += cast.sees(n);
-        else if (!cast.sees(n))
-            cover.has_sliver = true;
-    cover.is_half = open > 0 && open < cast.rays.size() - corners;
+    const std::span<const glm::vec3> to_cells = std::span(cast.transmittance).first(corners),
+                                     up = std::span(cast.transmittance).subspan(corners);
+    const auto blocked = [](std::span<const glm::vec3> rays) {
+        return std::size_t(std::ranges::count(rays, glm::vec3(0.0f)));
+    };
+    cover.has_sliver = blocked(to_cells) > 0;
+    cover.is_half = blocked(up) > 0 && blocked(up) < up.size();
     return cover;
 }
 

@@ -31,8 +31,8 @@ constexpr float kMinOpen = 0.1f;
 /// A surface closer than this above a lumel, relative to its size, lies on it.
 constexpr float kContact = 0.01f;
 
-/// Tests whether points of a lumel are hidden: all rays from them are shut in. Casts the rays along
-/// one direction together. Tries the last successful direction first.
+/// PointTests whether points of a lumel are hidden: all rays from them are shut in. Casts the rays
+/// along one direction together. Tries the last successful direction first.
 class HiddenPoints {
 public:
     HiddenPoints(const LumelsInScene& look, std::size_t i) : look_(look), lumel_(i) {}
@@ -100,8 +100,8 @@ LumelPoint point_of(const Piece& piece, const glm::vec2& uv)
     return {piece.origin + uv.x * piece.edge_u + uv.y * piece.edge_v, piece.normal};
 }
 
-/// Tests a few points: near the corners of its pieces, where neighbours begin to cover it, and over
-/// the whole lumel.
+/// PointTests a few points: near the corners of its pieces, where neighbours begin to cover it, and
+/// over the whole lumel.
 Openness first_look(const LumelsInScene& look, std::size_t i)
 {
     constexpr std::size_t kMostPoints = kFirstPoints + 4 * kCornerPieces;
@@ -124,7 +124,7 @@ Openness first_look(const LumelsInScene& look, std::size_t i)
 }
 
 /// Points of a lumel that are tested together, and where their results go.
-class Tests {
+class PointTests {
 public:
     void add(const LumelPoint& point, bool& is_open)
     {
@@ -158,7 +158,7 @@ public:
     {
     }
 
-    void test_grid(Tests& tests)
+    void test_grid(PointTests& tests)
     {
         for (int line = 0; line < count_; ++line) {
             const float across = (float(line) + 0.5f) / float(count_);
@@ -170,7 +170,7 @@ public:
 
     /// Turns strips to the direction of more changes. In a parallelogram both grids have the same
     /// points, in a triangle nearly so.
-    void turn(Tests& tests)
+    void turn(PointTests& tests)
     {
         Grid turned{};
         for (int line = 0; line < count_; ++line)
@@ -185,7 +185,7 @@ public:
             test_grid(tests);
     }
 
-    void test_ends(Tests& tests)
+    void test_ends(PointTests& tests)
     {
         for (int strip = 0; strip < count_; ++strip)
             for (int k : {-1, count_})
@@ -203,7 +203,7 @@ public:
                 }
     }
 
-    void test_edges(Tests& tests)
+    void test_edges(PointTests& tests)
     {
         for (Edge& edge : edges_)
             tests.add(point(edge.middle(), middle(edge.strip)), edge.middle_is_open);
@@ -342,8 +342,8 @@ OpenPart find_open_part(const LumelsInScene& look, std::size_t i)
         strips.emplace_back(look, i, k, side);
     }
     HiddenPoints are_hidden(look, i);
-    Tests tests;
-    const auto test = [&](void (Strips::*add)(Tests&)) {
+    PointTests tests;
+    const auto test = [&](void (Strips::*add)(PointTests&)) {
         for (Strips& one : strips)
             (one.*add)(tests);
         tests.run(are_hidden);

@@ -49,7 +49,7 @@ inline void find_closest(RTCScene scene, EmbreeContext& context, RTCRayHit& quer
     rtcIntersect1(scene, &query, &arguments);
 }
 
-/// Of rays that go together. valid: -1 for rays that are cast, 0 for others.
+/// Of coherent rays. valid: -1 for rays that are cast, 0 for others.
 inline void find_closest(RTCScene scene, EmbreeContext& context, const int* valid,
                          RTCRayHit16& query)
 {
@@ -86,7 +86,7 @@ inline void find_closest(RTCScene scene, EmbreeContext& context, RTCRayHit& quer
     rtcIntersect1(scene, &context, &query);
 }
 
-/// Of rays that go together. valid: -1 for rays that are cast, 0 for others.
+/// Of coherent rays. valid: -1 for rays that are cast, 0 for others.
 inline void find_closest(RTCScene scene, EmbreeContext& context, const int* valid,
                          RTCRayHit16& query)
 {

@@ -42,12 +42,17 @@ struct QueryContext {
             passed.push_back(glass);
     }
 
-    /// Multiplies in the order of the parts: the order of hits depends on the BVHs.
-    glm::vec3 tint_before(float distance, std::uint32_t ray = 0)
+    /// After the query. The order of hits depends on the BVHs.
+    void sort_by_part()
     {
         std::sort(passed.begin(), passed.end(), [](const PassedGlass& a, const PassedGlass& b) {
             return std::pair(a.part, a.triangle) < std::pair(b.part, b.triangle);
         });
+    }
+
+    /// Multiplies in the order of the parts.
+    glm::vec3 tint_before(float distance, std::uint32_t ray = 0) const
+    {
         glm::vec3 tint(1.0f);
         for (const PassedGlass& glass : passed)
             if (glass.ray == ray && glass.distance < distance)
@@ -152,6 +157,7 @@ glm::vec3 tint_along(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
 {
     QueryContext context = query_context(&seed);
     find_occluder(tree, context.embree, ray);
+    context.sort_by_part();
     const bool clear = ray.tfar >= 0.0f;  // Embree marks an occluded ray by -infinity
     return clear ? context.tint_before(std::numeric_limits<float>::infinity()) : glm::vec3(0.0f);
 }
@@ -176,12 +182,15 @@ struct Packet {
     alignas(64) std::array<int, kEmbreePacket> valid{};
     std::array<std::uint32_t, kEmbreePacket> seeds{};
 
-    /// Fills Embree's rays.
+    /// Fills Embree's rays. Those without a ray, and empty ones, end before they begin: without
+    /// AVX-512 Embree 3 ignores `valid`.
     Packet(std::span<const RaySpan> from, RTCRay16& rays)
     {
-        for (std::size_t n = 0; n < from.size(); ++n) {
-            const RaySpan& ray = from[n];
-            valid[n] = ray.far > ray.near ? -1 : 0;
+        constexpr RaySpan none{.direction = {0.0f, 0.0f, 1.0f}};
+        for (std::size_t n = 0; n < kEmbreePacket; ++n) {
+            const bool is_cast = n < from.size() && from[n].far > from[n].near;
+            const RaySpan& ray = is_cast ? from[n] : none;
+            valid[n] = is_cast ? -1 : 0;
             seeds[n] = ray.seed;
             rays.org_x[n] = ray.origin.x;
             rays.org_y[n] = ray.origin.y;
@@ -190,7 +199,7 @@ struct Packet {
             rays.dir_y[n] = ray.direction.y;
             rays.dir_z[n] = ray.direction.z;
             rays.tnear[n] = ray.near;
-            rays.tfar[n] = ray.far;
+            rays.tfar[n] = is_cast ? ray.far : -std::numeric_limits<float>::infinity();
             rays.time[n] = 0.0f;
             rays.mask[n] = ~0u;
             rays.id[n] = std::uint32_t(n);
@@ -207,6 +216,7 @@ void transmittance_of_packet(const EmbreeTrees& trees, std::span<const RaySpan> 
     const Packet packet(rays, query);
     QueryContext context = query_context(packet.seeds.data());
     find_occluder(trees.top(), context.embree, packet.valid.data(), query);
+    context.sort_by_part();
     for (std::size_t n = 0; n < rays.size(); ++n) {
         const bool clear = packet.valid[n] == 0 || query.tfar[n] >= 0.0f;
         transmittance[n] =
@@ -221,10 +231,11 @@ void closest_of_packet(const EmbreeTrees& trees, std::span<const RaySpan> rays,
 {
     RTCRayHit16 query;
     const Packet packet(rays, query.ray);
-    for (std::size_t n = 0; n < rays.size(); ++n)
+    for (std::size_t n = 0; n < kEmbreePacket; ++n)
         query.hit.geomID[n] = query.hit.instID[0][n] = RTC_INVALID_GEOMETRY_ID;
     QueryContext context = query_context(packet.seeds.data());
     find_closest(trees.top(), context.embree, packet.valid.data(), query);
+    context.sort_by_part();
     for (std::size_t n = 0; n < rays.size(); ++n) {
         hits[n].tint = context.tint_before(query.ray.tfar[n], std::uint32_t(n));
         if (query.hit.geomID[n] == RTC_INVALID_GEOMETRY_ID) {
@@ -347,6 +358,7 @@ bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, floa
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     QueryContext context = query_context(&seed);
     find_closest(trees_->top(), context.embree, query);
+    context.sort_by_part();
     hit.tint = context.tint_before(query.ray.tfar);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
@@ -358,12 +370,10 @@ void RayScene::closest(std::span<const RaySpan> rays, std::span<RayHit> hits) co
 {
     for (std::size_t first = 0; first < rays.size(); first += kEmbreePacket) {
         const std::size_t count = std::min(rays.size() - first, kEmbreePacket);
-        if (count == 1) {
-            if (!closest(rays[first], hits[first]))
-                hits[first].distance = std::numeric_limits<float>::infinity();
-            return;
-        }
-        closest_of_packet(*trees_, rays.subspan(first, count), hits.subspan(first, count));
+        if (count > 1)
+            closest_of_packet(*trees_, rays.subspan(first, count), hits.subspan(first, count));
+        else if (!closest(rays[first], hits[first]))  // a packet of one is slower
+            hits[first].distance = std::numeric_limits<float>::infinity();
     }
 }
 

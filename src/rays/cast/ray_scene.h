@@ -91,7 +91,8 @@ public:
     glm::vec3 transmittance_out(const glm::vec3& from, const glm::vec3& direction,
                                 std::uint32_t seed) const;
     glm::vec3 transmittance(const RaySpan& ray) const;
-    /// Of many rays, in packets: faster, above all for rays from near places to one lamp.
+    /// Of many rays, in packets: faster, above all for rays from near places to one lamp. Each is
+    /// as that of the ray alone.
     void transmittance(std::span<const RaySpan> rays, std::span<glm::vec3> transmittance) const;
 
     /// Finds the closest hit along a unit direction within (near, far). Returns false if there is

@@ -255,56 +255,90 @@ TEST(RayScene, GlassTintsWhatPasses)
     EXPECT_EQ(hit.tint, thrice);
 }
 
-/// Packets of any size, through a mask, a blended surface and glass, onto a wall.
-TEST(RayScene, RaysOfAPacketHitWhatTheyHitAlone)
+/// Triangles of all sizes in a unit cube, some cut out, some blended, some of glass: rays pass
+/// many.
+Scene soup(std::uint32_t triangles)
 {
-    support::Quad mask, blend, glass, wall;
-    mask.corner.z = 0.0f;
-    blend.corner.z = -1.0f;
-    glass.corner.z = -2.0f;
-    wall.corner.z = -3.0f;
-    glass.albedo = {1.0f, 0.5f, 0.25f};
-    Scene scene = support::make_quads({mask, blend, glass, wall}).scene;
-    scene.textures.push_back({2, 1, {255, 255, 255, 255, 255, 255, 255, 0}});
-    scene.materials[0].alpha_mode = AlphaMode::mask;
-    scene.materials[0].base_color_texture.texture = 0;
-    scene.materials[0].base_color_texture.wrap_s = Wrap::clamp;
-    scene.materials[1].alpha_mode = AlphaMode::blend;
-    scene.materials[1].base_color.a = 0.3f;
-    scene.materials[2].transmission = 1.0f;
-    const RayScene rays(scene);
     std::mt19937 random(1);
-    std::uniform_real_distribution<float> number(-0.3f, 1.3f);
-    std::size_t hit = 0, tinted = 0;
-    for (std::size_t count = 0; count < 50; ++count) {
+    std::uniform_real_distribution<float> number;
+    const auto point = [&] { return glm::vec3(number(random), number(random), number(random)); };
+    Scene scene = half_clear_square(AlphaMode::mask);
+    for (int kind = 0; kind < 4; ++kind) {
+        std::vector<glm::vec3> positions;
+        std::vector<std::uint32_t> corners;
+        for (std::uint32_t t = 0; t < triangles; ++t) {
+            const glm::vec3 at = point();
+            for (int k = 0; k < 3; ++k) {
+                corners.push_back(std::uint32_t(positions.size()));
+                positions.push_back(at + 0.2f * number(random) * (point() - 0.5f));
+            }
+        }
+        Material material = scene.materials[0];
+        if (kind != 0)
+            material = Material{};
+        if (kind == 1) {
+            material.alpha_mode = AlphaMode::blend;
+            material.base_color.a = 0.3f;
+        } else if (kind == 2) {
+            material.transmission = 1.0f;
+            material.base_color = {1.0f, 0.5f, 0.25f, 1.0f};
+        }
+        add_mesh(scene, positions, corners, material);
+        for (auto& texcoords : scene.meshes.back().primitives[0].texcoords)
+            for (std::size_t v = 0; v < positions.size(); ++v)
+                texcoords.emplace_back(number(random), number(random));
+    }
+    return scene;
+}
+
+/// Rays from everywhere to everywhere, some empty, in packets of any size.
+void expect_as_alone(const RayScene& rays)
+{
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> number(-0.1f, 1.1f);
+    const auto point = [&] { return glm::vec3(number(random), number(random), number(random)); };
+    std::size_t hit = 0, missed = 0, tinted = 0;
+    for (std::size_t count = 0; count < 200; ++count) {
         std::vector<RaySpan> packet;
-        const glm::vec3 down = glm::normalize(glm::vec3(0.1f, 0.05f, -1.0f));
-        for (std::size_t n = 0; n < count; ++n)
-            packet.push_back(
-                ray_out({number(random), number(random), 1.0f}, down, std::uint32_t(random())));
-        if (count > 2)
-            packet[1].far = packet[1].near;  // empty
+        for (std::size_t n = 0; n < count; ++n) {
+            packet.push_back(ray_between(point(), point(), 0.0f, std::uint32_t(random())));
+            if (n % 7 == 3)
+                packet.back().far = -1.0f;  // empty
+        }
         std::vector<RayHit> hits(count);
         rays.closest(packet, hits);
         std::vector<glm::vec3> transmittance(count);
         rays.transmittance(packet, transmittance);
         for (std::size_t n = 0; n < count; ++n) {
+            ASSERT_EQ(transmittance[n], rays.transmittance(packet[n])) << n << " of " << count;
             RayHit alone;
             const bool any = rays.closest(packet[n], alone);
             ASSERT_EQ(std::isfinite(hits[n].distance), any) << n << " of " << count;
             EXPECT_EQ(hits[n].tint, alone.tint);
-            EXPECT_EQ(transmittance[n], rays.transmittance(packet[n]));
-            hit += any;
+            (any ? hit : missed) += 1;
             tinted += alone.tint != glm::vec3(1.0f);
             if (!any)
                 continue;
-            EXPECT_NEAR(hits[n].distance, alone.distance, 1e-5f);
             EXPECT_EQ(hits[n].instance, alone.instance);
+            EXPECT_EQ(hits[n].primitive, alone.primitive);
+            EXPECT_EQ(hits[n].triangle, alone.triangle);
             EXPECT_EQ(hits[n].front, alone.front);
+            EXPECT_NEAR(hits[n].distance, alone.distance, 1e-5f);
+            EXPECT_LT(glm::distance(hits[n].normal, alone.normal), 1e-4f);
+            EXPECT_LT(glm::distance(hits[n].barycentric, alone.barycentric), 1e-3f);
+            EXPECT_NEAR(hits[n].ray_offset, alone.ray_offset, 1e-8f);
         }
     }
-    EXPECT_GT(hit, 100u);
-    EXPECT_GT(tinted, 100u);
+    EXPECT_GT(hit, 2000u);
+    EXPECT_GT(missed, 500u);
+    EXPECT_GT(tinted, 1000u);
+}
+
+TEST(RayScene, RaysOfAPacketMeetWhatTheyMeetAlone)
+{
+    const Scene scene = soup(200);
+    expect_as_alone(RayScene(scene));
+    expect_as_alone(RayScene(scene, {0, 0, 1, 0, 1}));
 }
 
 TEST(RayScene, KnowsItsBounds)
