@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lumel {
 namespace {
@@ -11,6 +12,7 @@ constexpr std::array<float, 2> kCautionDirect = {1.0f, 0.5f};
 /// Bounds on the amplitude of details, relative to (deviation of the fit / R)² × the light: second
 /// order in the distance R of what sends it [WH92].
 constexpr float kLeastDetail = 0.05f, kMostDetail = 4.0f;
+constexpr float kUnbounded = std::numeric_limits<float>::max();
 /// Deviation of the window over which gains are averaged [cells]; of the finest level.
 constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
 /// Deviations of the window for local noise [cells], of indirect and of direct light. A detail
@@ -98,21 +100,22 @@ void blur(std::vector<Moments>& cells, int width, int height, float spread)
     blur(cells, across, down, 1, across, bell);
 }
 
+/// Gain of a Wiener filter.
+float wiener(float signal, float noise)
+{
+    return signal + noise > 0.0f ? signal / (signal + noise) : 1.0f;
+}
+
 /// next: sums over the window for local noise.
 float gain_of(const Moments& sums, const Moments& next, const PyramidRule& rule, float caution)
 {
-    float signal = std::max(sums.signal - caution * sums.noise(), 0.0f), noise = sums.noise();
-    if (next.count > 0.0f) {
-        const Moments here = next * (sums.count / next.count);
-        const float stands_out = here.signal - kLocalCaution * here.noise();
-        if (rule.has_local_noise || stands_out > signal)
-            noise = here.noise();
-        signal = std::max(signal, stands_out);
-    }
-    if (rule.is_bounded)
-        signal = std::clamp(signal, kLeastDetail * kLeastDetail * sums.bound,
-                            kMostDetail * kMostDetail * sums.bound);
-    return signal + noise > 0.0f ? signal / (signal + noise) : 1.0f;
+    const Moments here = next.count > 0.0f ? next * (sums.count / next.count) : sums;
+    const float most = rule.is_bounded ? kMostDetail * kMostDetail * sums.bound : kUnbounded,
+                least = rule.is_bounded ? kLeastDetail * kLeastDetail * sums.bound : 0.0f;
+    const float local = std::clamp(here.signal - kLocalCaution * here.noise(), 0.0f, most),
+                wide = std::clamp(sums.signal - caution * sums.noise(), least, most);
+    return rule.has_local_noise ? wiener(std::max(wide, local), here.noise())
+                                : std::max(wiener(wide, sums.noise()), wiener(local, here.noise()));
 }
 
 /// Weight of a distance [octaves] in a class of distances: of a linear interpolation.
