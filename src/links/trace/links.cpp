@@ -267,7 +267,7 @@ void LinkRadiosity::solve()
     for (std::size_t k = 0; k < kSolutions; ++k) {
         sources_[k] = find_source_term(work_, *parts_, *numbers_, reflected, *links_[k]);
         solver_->solve(*links_[k], sources_[k], sweep_residual(), received_[k]);
-        sources_[k].light = {};  // not needed any more
+        sources_[k].light = std::vector<glm::vec4>();  // frees it
         balance(k);
     }
 }

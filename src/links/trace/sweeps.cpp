@@ -209,7 +209,8 @@ private:
             if (sum.empty())
                 sum.assign(size_, glm::dvec3(0.0));
             sum[solver_.group_[solver_.numbers_.part(to.number())]] +=
-                double(row.weight(k) * area_of_part_[p] / rays[p]) * albedo * weight;
+                double(row.weight(k)) * double(area_of_part_[p]) / double(rays[p]) * albedo *
+                weight;
         };
         for (std::size_t k = 0; k < row.ends.size(); ++k)
             add(k, row.ends[k], glm::dvec3(1.0));
