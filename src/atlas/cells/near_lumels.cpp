@@ -38,29 +38,36 @@ std::uint32_t NearLumels::own(const glm::vec2& place, const RayHit& hit) const
               hit);
 }
 
+std::uint32_t NearLumels::lumel(const RayHit& hit) const
+{
+    const glm::vec2 place = places_.place(hit);
+    const std::uint32_t found = own(place, hit);
+    return found != kNoLumel ? found : nearest(place, hit);
+}
+
 void NearLumels::find(std::span<const RayHit> hits, std::vector<std::uint32_t>& lumels) const
 {
     lumels.assign(hits.size(), kNoLumel);
-    std::array<glm::vec2, kTogether> places;
+    std::array<std::uint32_t, kTogether> number;
+    std::array<glm::vec2, kTogether> place;
     for (std::size_t first = 0; first < hits.size(); first += kTogether) {
-        const std::size_t count = std::min(hits.size() - first, kTogether);
-        for (std::size_t n = 0; n < count; ++n)
-            if (!std::isinf(hits[first + n].distance))
-                places[n] = places_.place(hits[first + n]);
-        for (std::size_t n = 0; n < count; ++n)
-            if (!std::isinf(hits[first + n].distance))
-                lumels[first + n] = own(places[n], hits[first + n]);
-        for (std::size_t n = 0; n < count; ++n)
-            if (lumels[first + n] == kNoLumel && !std::isinf(hits[first + n].distance))
-                lumels[first + n] = lumel(places[n], hits[first + n]);
+        std::size_t count = 0;
+        for (std::size_t n = first; n < std::min(first + kTogether, hits.size()); ++n)
+            if (!std::isinf(hits[n].distance)) {
+                number[count] = std::uint32_t(n);
+                place[count++] = places_.place(hits[n]);
+            }
+        for (std::size_t k = 0; k < count; ++k)
+            lumels[number[k]] = own(place[k], hits[number[k]]);
+        for (std::size_t k = 0; k < count; ++k)
+            if (lumels[number[k]] == kNoLumel)
+                lumels[number[k]] = nearest(place[k], hits[number[k]]);
     }
 }
 
-std::uint32_t NearLumels::lumel(const glm::vec2& place, const RayHit& hit) const
+std::uint32_t NearLumels::nearest(const glm::vec2& place, const RayHit& hit) const
 {
-    std::uint32_t best = own(place, hit);
-    if (best != kNoLumel)
-        return best;
+    std::uint32_t best = kNoLumel;
     float least = std::numeric_limits<float>::max();
     for (int y = std::max(int(place.y) - kHitReach, 0);
          y <= std::min(int(place.y) + kHitReach, height_ - 1); ++y)

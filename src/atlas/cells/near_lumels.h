@@ -25,21 +25,21 @@ public:
     /// The lumel at a hit, else the nearest of its instance and side within kHitReach: rays without
     /// a lumel would darken closed rooms, without bound. kNoLumel if there is none. Ignores buried
     /// lumels.
-    std::uint32_t lumel(const RayHit& hit) const { return lumel(places_.place(hit), hit); }
+    std::uint32_t lumel(const RayHit& hit) const;
 
     /// The same for many hits, at less than a hit's time each: their reads of memory overlap.
     /// lumels [hits]: kNoLumel for those of infinite distance.
     void find(std::span<const RayHit> hits, std::vector<std::uint32_t>& lumels) const;
 
 private:
-    std::uint32_t lumel(const glm::vec2& place, const RayHit& hit) const;
-
     /// Data of a texel and side, adjacent in memory.
     struct Entry {
         std::uint32_t lumel = kNoLumel, instance = 0;
     };
-    /// Of the texel that a place is in.
+    /// The lumel of the texel that a place is in, or kNoLumel.
     std::uint32_t own(const glm::vec2& place, const RayHit& hit) const;
+    /// The nearest one within kHitReach, or kNoLumel.
+    std::uint32_t nearest(const glm::vec2& place, const RayHit& hit) const;
     /// The lumel of an instance and side at a texel, or kNoLumel.
     std::uint32_t at(int x, int y, const RayHit& hit) const;
 

@@ -274,7 +274,7 @@ void LinkTracer::follow(RayBatch& wave) const
         if (reflections > 0 || !wave.is_cast)
             work_.caster().closest(wave.rays, std::span(wave.hits).first(count));
         wave.arrivals.clear();
-        land(wave);
+        find_landings(wave);
         if (reflections == 0)
             meet_first(wave);
         else
@@ -286,17 +286,17 @@ void LinkTracer::follow(RayBatch& wave) const
 
 /// Finds where the rays of a batch land: first the lumels of all, then what is known of them, as
 /// each waits for memory.
-void LinkTracer::land(RayBatch& wave) const
+void LinkTracer::find_landings(RayBatch& wave) const
 {
     const std::span hits = std::span(wave.hits).first(wave.rays.size());
     hits_.find(hits, wave.met);
     wave.landings.resize(hits.size());
     for (std::size_t r = 0; r < hits.size(); ++r)
-        wave.landings[r] = landing(wave.rays[r], hits[r], wave.met[r]);
+        wave.landings[r] = landing_of(wave.rays[r], hits[r], wave.met[r]);
 }
 
-LinkTracer::Landing LinkTracer::landing(const RaySpan& ray, const RayHit& hit,
-                                        std::uint32_t j) const
+LinkTracer::Landing LinkTracer::landing_of(const RaySpan& ray, const RayHit& hit,
+                                           std::uint32_t j) const
 {
     if (hit.distance == RayCaster::kNothing)
         return {.end = LinkNumbers::kSky};
@@ -403,12 +403,22 @@ void LinkTracer::find_seen_cells(RayBatch& wave, int reflections) const
     for (std::uint32_t a = 0; a < wave.arrivals.size(); ++a)
         if (!wave.arrivals[a].looks_around && wave.arrivals[a].may_be_hidden)
             open.push_back(a);
+    // By lumel, so that the points of its cells are found once.
+    std::ranges::sort(open, {},
+                      [&](std::uint32_t a) { return std::pair(wave.arrivals[a].lumel, a); });
     while (!open.empty()) {
         // One ray for each hit with an untested cell.
         wave.to_cells.clear();
+        std::uint32_t of = kNoLumel;
+        CellPoints points;
         std::erase_if(open, [&](std::uint32_t a) {
             PathHit& arrival = wave.arrivals[a];
-            const std::optional<RaySpan> ray = ray_to_cell(arrival, wave.rays[arrival.ray].seed);
+            if (arrival.lumel != of) {
+                of = arrival.lumel;
+                points = cell_points(work_.world, work_.cells, of);
+            }
+            const std::optional<RaySpan> ray =
+                ray_to_cell(arrival, points, wave.rays[arrival.ray].seed);
             if (ray) {
                 wave.to_cells.push_back(*ray);
                 return false;
@@ -430,11 +440,11 @@ void LinkTracer::find_seen_cells(RayBatch& wave, int reflections) const
 }
 
 /// Ray to the nearest cell not known to be occluded, which becomes the hit's cell; empty if there
-/// is none.
-std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, std::uint32_t seed) const
+/// is none. points: of the lumel's cells.
+std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, const CellPoints& points,
+                                               std::uint32_t seed) const
 {
     const std::uint32_t j = arrival.lumel;
-    const CellPoints points = cell_points(work_.world, work_.cells, j);
     const std::uint32_t left = points.used & ~arrival.unseen_cells;
     if (left == 0)
         return std::nullopt;
@@ -615,7 +625,7 @@ void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sendi
         block.probabilities.shrink_to_fit();
         const auto is_uniform = [](std::uint16_t one) { return one == RayGuide::kUniform; };
         if (std::ranges::all_of(block.probabilities, is_uniform))
-            block.probabilities = {};
+            block.probabilities = std::vector<std::uint16_t>();  // frees them
     }
 }
 

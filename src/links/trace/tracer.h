@@ -67,12 +67,13 @@ private:
     bool may_meet_moved(const RaySpan& ray, const LinkChanges& changes) const;
     void cast_bundles(const SharedDirections& shared, std::vector<RayBatch>& waves) const;
     void follow(RayBatch& wave) const;
-    void land(RayBatch& batch) const;
-    Landing landing(const RaySpan& ray, const RayHit& hit, std::uint32_t lumel) const;
+    void find_landings(RayBatch& wave) const;
+    Landing landing_of(const RaySpan& ray, const RayHit& hit, std::uint32_t lumel) const;
     void meet_first(RayBatch& wave) const;
     void meet(RayBatch& wave, int reflections) const;
     void find_seen_cells(RayBatch& wave, int reflections) const;
-    std::optional<RaySpan> ray_to_cell(PathHit& arrival, std::uint32_t seed) const;
+    std::optional<RaySpan> ray_to_cell(PathHit& arrival, const CellPoints& points,
+                                       std::uint32_t seed) const;
     void end_or_reflect(RayBatch& wave, int reflections) const;
     RaySpan reflect(const RayBatch& wave, const PathHit& arrival, int reflections, Path& path,
                     ShadowRays& looks) const;
