@@ -4,6 +4,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "base/core/parallel.h"
+
 namespace lumel {
 namespace {
 
@@ -12,6 +14,7 @@ constexpr double kMinCell = 8.0;
 /// Maximum cells along the longest edge: a large ground plane beside small objects would have too
 /// many.
 constexpr double kMaxAlong = 1e4;
+constexpr std::size_t kEdgesPerTask = 256;
 
 struct Cell {
     std::int64_t x, y, z;
@@ -123,16 +126,21 @@ void cut_at_ends(std::vector<BorderEdge>& edges, float tolerance)
     const double cell = std::max(
         {length / double(edges.size()), longest / kMaxAlong, kMinCell * double(tolerance)});
     const Ends ends(edges, cell, double(tolerance));
+    std::vector<std::vector<double>> parts(edges.size());
+    parallel_for(edges.size(), kEdgesPerTask, [&](std::size_t first, std::size_t last) {
+        for (std::size_t e = first; e < last; ++e)
+            parts[e] = ends.on(edges[e]);
+    });
     std::vector<BorderEdge> cut;
     cut.reserve(edges.size());
-    for (const BorderEdge& edge : edges) {
-        EdgeEnd last = edge.ends[0];
-        for (const double part : ends.on(edge)) {
-            const EdgeEnd next = between(edge, part);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        EdgeEnd last = edges[e].ends[0];
+        for (const double part : parts[e]) {
+            const EdgeEnd next = between(edges[e], part);
             cut.push_back({{last, next}});
             last = next;
         }
-        cut.push_back({{last, edge.ends[1]}});
+        cut.push_back({{last, edges[e].ends[1]}});
     }
     edges = std::move(cut);
 }
