@@ -43,8 +43,8 @@ PyramidRule rule_of_direct();
 ///
 /// T is signal, as noise of different estimates is independent, and ν the noise of their mean, both
 /// averaged over cells nearby, of indirect light over those as far from other geometry [CPD07]; ν
-/// of direct light over the next cells only: an empirical Wiener filter. Where T over the next
-/// cells is well above their own ν, these count. All estimates have the same gains.
+/// of direct light over the next cells only: an empirical Wiener filter. Of indirect light β is at
+/// least that of the next cells alone, with a caution of 3. All estimates have the same gains.
 template <std::size_t Count>
 std::vector<FitLight<Count>> filter_chart(const FilterChart& chart,
                                           const std::array<const Estimates*, Count>& found,
