@@ -38,7 +38,7 @@ private:
 /// Distance of points near the corners of a flat lumel from them, in its ray offsets.
 constexpr float kInsideCorner = 2.0f;
 
-/// Rays that are cast together.
+/// A batch of rays, and their transmittance.
 struct RaysTogether {
     std::vector<RaySpan> rays;
     std::vector<glm::vec3> transmittance;  ///< [rays]
@@ -104,7 +104,7 @@ void for_each_corner(const WorldLumels& world, std::size_t i, const Visit& visit
         }
 }
 
-/// What geometry close above a lumel covers.
+/// Occlusion of a lumel by geometry just above it.
 struct Cover {
     /// A corner of a flat lumel does not see the nearest cell: geometry covers a sliver of it that
     /// no cell's point is in.

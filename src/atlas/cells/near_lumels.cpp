@@ -8,7 +8,7 @@
 namespace lumel {
 namespace {
 
-/// Hits whose places are found before their lumels.
+/// Hits per pass of find().
 constexpr std::size_t kTogether = 64;
 
 }  // namespace

@@ -27,8 +27,8 @@ public:
     /// lumels.
     std::uint32_t lumel(const RayHit& hit) const;
 
-    /// The same for many hits, at less than a hit's time each: their reads of memory overlap.
-    /// lumels [hits]: kNoLumel for those of infinite distance.
+    /// The same for a batch of hits: faster, as their memory reads overlap. lumels [hits]: kNoLumel
+    /// for those of infinite distance.
     void find(std::span<const RayHit> hits, std::vector<std::uint32_t>& lumels) const;
 
 private:

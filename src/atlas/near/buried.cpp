@@ -31,8 +31,8 @@ constexpr float kMinOpen = 0.1f;
 /// A surface closer than this above a lumel, relative to its size, lies on it.
 constexpr float kContact = 0.01f;
 
-/// PointTests whether points of a lumel are hidden: all rays from them are shut in. Casts the rays
-/// along one direction together. Tries the last successful direction first.
+/// Tests whether points of a lumel are hidden: all rays from them are shut in. Casts the rays along
+/// one direction together. Tries the last successful direction first.
 class HiddenPoints {
 public:
     HiddenPoints(const LumelsInScene& look, std::size_t i) : look_(look), lumel_(i) {}
@@ -100,8 +100,8 @@ LumelPoint point_of(const Piece& piece, const glm::vec2& uv)
     return {piece.origin + uv.x * piece.edge_u + uv.y * piece.edge_v, piece.normal};
 }
 
-/// PointTests a few points: near the corners of its pieces, where neighbours begin to cover it, and
-/// over the whole lumel.
+/// Tests a few points: near the corners of its pieces, where neighbours begin to cover it, and over
+/// the whole lumel.
 Openness first_look(const LumelsInScene& look, std::size_t i)
 {
     constexpr std::size_t kMostPoints = kFirstPoints + 4 * kCornerPieces;
@@ -123,7 +123,7 @@ Openness first_look(const LumelsInScene& look, std::size_t i)
     return hides == 0 ? Openness::open : hides == count ? Openness::hidden : Openness::partly;
 }
 
-/// Points of a lumel that are tested together, and where their results go.
+/// A batch of points of a lumel to test, with the addresses of their results.
 class PointTests {
 public:
     void add(const LumelPoint& point, bool& is_open)
@@ -209,7 +209,7 @@ public:
             tests.add(point(edge.middle(), middle(edge.strip)), edge.middle_is_open);
     }
 
-    /// Halves what is between the points of each edge.
+    /// Bisects the interval of each edge.
     void narrow_edges()
     {
         for (Edge& edge : edges_)

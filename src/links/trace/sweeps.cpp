@@ -29,7 +29,7 @@ constexpr double kMaxFactor = 64.0;
 constexpr double kMinArea = 1e-30;
 /// Blocks per task.
 constexpr std::size_t kBlocksPerTask = 4;
-/// Sums that are computed in parallel: always as many, so that results do not depend on the number
+/// Partial sums, computed in parallel: a fixed number, so that results do not depend on the number
 /// of cores.
 constexpr std::size_t kSums = 16;
 /// Minimum assumed convergence: changes shrink at least by this factor.
@@ -46,7 +46,7 @@ double mean_of(const std::vector<glm::vec4>& sent, std::size_t parts)
     return sum / double(std::max<std::size_t>(parts, 1));
 }
 
-/// Adds what the rays of a row bring to the sub-lumels of lumel i, which is cut.
+/// Adds the light along the rays of a row to the sub-lumels of lumel i, which is cut.
 void add_row(const LinkRow& row, const SubLumels& parts, std::size_t i,
              const std::vector<glm::vec4>& sent, std::array<glm::vec4, kMaxParts>& sums)
 {
@@ -59,7 +59,7 @@ void add_row(const LinkRow& row, const SubLumels& parts, std::size_t i,
     }
 }
 
-/// Adds what the rays of a row bring to a lumel that is not cut.
+/// `sum` with the light along the rays of a row, of a lumel that is not cut.
 glm::vec4 sum_of_row(const LinkRow& row, const std::vector<glm::vec4>& sent, glm::vec4 sum)
 {
     if (row.probabilities)
@@ -107,29 +107,8 @@ public:
     /// relative to the light of the groups.
     double correct(const std::vector<Reflected>& before, std::vector<Reflected>& now) const
     {
-        std::vector<glm::dvec3> change(size_, glm::dvec3(0.0)), mean = change, factor = change;
-        struct Sums {
-            std::vector<glm::dvec3> change, now;  ///< [groups]
-        };
-        std::vector<Sums> sums(kSums, {change, change});
-        for_each_span(
-            area_of_part_.size(), [&](std::size_t s, std::size_t first, std::size_t last) {
-                for (std::size_t p = first; p < last; ++p) {
-                    const std::uint32_t n = solver_.numbers_.of_part(std::uint32_t(p));
-                    const double area = double(area_of_part_[p]);
-                    sums[s].change[solver_.group_[p]] += area * glm::dvec3(now[n] - before[n]);
-                    sums[s].now[solver_.group_[p]] += area * glm::dvec3(now[n]);
-                }
-            });
-        for (const Sums& one : sums)
-            for (std::uint32_t g = 0; g < size_; ++g) {
-                change[g] += one.change[g];
-                mean[g] += one.now[g];
-            }
-        for (std::uint32_t g = 0; g < size_; ++g) {
-            change[g] /= std::max(area_[g], kMinArea);
-            mean[g] /= std::max(area_[g], kMinArea);
-        }
+        const auto [change, mean] = means(before, now);
+        std::vector<glm::dvec3> factor(size_);
         // (1 - K)⁻¹ K r = (1 - K)⁻¹ r - r.
         for (std::uint32_t a = 0; a < size_; ++a)
             for (int c = 0; c < 3; ++c) {
@@ -156,6 +135,37 @@ public:
     }
 
 private:
+    /// Of each group [groups].
+    struct Means {
+        std::vector<glm::dvec3> change, light;
+    };
+
+    /// Means over the areas of groups, of the change and of the light after a sweep.
+    Means means(const std::vector<Reflected>& before, const std::vector<Reflected>& now) const
+    {
+        const std::vector<glm::dvec3> none(size_, glm::dvec3(0.0));
+        std::vector<Means> sums(kSums, {none, none});
+        for_each_span(
+            area_of_part_.size(), [&](std::size_t s, std::size_t first, std::size_t last) {
+                for (std::size_t p = first; p < last; ++p) {
+                    const std::uint32_t n = solver_.numbers_.of_part(std::uint32_t(p));
+                    const double area = double(area_of_part_[p]);
+                    sums[s].change[solver_.group_[p]] += area * glm::dvec3(now[n] - before[n]);
+                    sums[s].light[solver_.group_[p]] += area * glm::dvec3(now[n]);
+                }
+            });
+        Means means{none, none};
+        for (std::uint32_t g = 0; g < size_; ++g) {
+            for (const Means& one : sums) {
+                means.change[g] += one.change[g];
+                means.light[g] += one.light[g];
+            }
+            means.change[g] /= std::max(area_[g], kMinArea);
+            means.light[g] /= std::max(area_[g], kMinArea);
+        }
+        return means;
+    }
+
     /// Calls visit(s, first, last) in parallel for the kSums spans of `count` elements.
     template <class Visit>
     static void for_each_span(std::size_t count, const Visit& visit)

@@ -284,8 +284,8 @@ void LinkTracer::follow(RayBatch& wave) const
     }
 }
 
-/// Finds where the rays of a batch land: first the lumels of all, then what is known of them, as
-/// each waits for memory.
+/// Finds where the rays of a batch land. Looks up the lumels of all hits before their cells and
+/// sizes, so that memory reads overlap.
 void LinkTracer::find_landings(RayBatch& wave) const
 {
     const std::span hits = std::span(wave.hits).first(wave.rays.size());
