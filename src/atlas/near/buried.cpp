@@ -31,11 +31,19 @@ constexpr float kMinOpen = 0.1f;
 /// A surface closer than this above a lumel, relative to its size, lies on it.
 constexpr float kContact = 0.01f;
 
+/// Bit k: direction k.
+using Directions = std::uint32_t;
+constexpr Directions kAllDirections = (1u << kDirections) - 1;
+
 /// Tests whether points of a lumel are hidden: all rays from them are shut in. Casts the rays along
 /// one direction together. Tries the last successful direction first.
 class HiddenPoints {
 public:
-    HiddenPoints(const LumelsInScene& look, std::size_t i) : look_(look), lumel_(i) {}
+    /// tried: directions of rays.
+    HiddenPoints(const LumelsInScene& look, std::size_t i, Directions tried)
+        : look_(look), lumel_(i), tried_(tried)
+    {
+    }
 
     /// hidden [points].
     void operator()(std::span<const LumelPoint> points, std::span<bool> hidden)
@@ -46,15 +54,21 @@ public:
         const std::uint32_t first = last_;
         for (std::uint32_t k = 0; k < kDirections && !left_.empty(); ++k) {
             const std::uint32_t direction = k == 0 ? first : k <= first ? k - 1 : k;
+            if ((tried_ >> direction & 1u) == 0)
+                continue;
             cast(points, direction);
             for (std::size_t r = 0; r < left_.size(); ++r)
                 if (!is_shut_in(points[left_[r]].normal, rays_[r], hits_[r])) {
                     hidden[left_[r]] = false;
                     last_ = direction;
+                    successful_ |= 1u << direction;
                 }
             std::erase_if(left_, [&](std::uint32_t p) { return !hidden[p]; });
         }
     }
+
+    /// Directions that left the surface from any point so far.
+    Directions successful() const { return successful_; }
 
 private:
     /// Casts rays from points that are hidden so far.
@@ -87,6 +101,7 @@ private:
 
     const LumelsInScene& look_;
     std::size_t lumel_;
+    Directions tried_, successful_ = 0;
     std::uint32_t last_ = 0;
     std::vector<std::uint32_t> left_;  ///< points that are hidden so far
     std::vector<RaySpan> rays_;        ///< [left_]
@@ -95,6 +110,11 @@ private:
 
 enum class Openness { open, partly, hidden };
 
+struct FirstLook {
+    Openness openness;
+    Directions successful;  ///< of rays from its points
+};
+
 LumelPoint point_of(const Piece& piece, const glm::vec2& uv)
 {
     return {piece.origin + uv.x * piece.edge_u + uv.y * piece.edge_v, piece.normal};
@@ -102,7 +122,7 @@ LumelPoint point_of(const Piece& piece, const glm::vec2& uv)
 
 /// Tests a few points: near the corners of its pieces, where neighbours begin to cover it, and over
 /// the whole lumel.
-Openness first_look(const LumelsInScene& look, std::size_t i)
+FirstLook first_look(const LumelsInScene& look, std::size_t i)
 {
     constexpr std::size_t kMostPoints = kFirstPoints + 4 * kCornerPieces;
     std::array<LumelPoint, kMostPoints> points;
@@ -118,9 +138,13 @@ Openness first_look(const LumelsInScene& look, std::size_t i)
               glm::vec2(piece.parallelogram ? 1.0f - kFromEdges : 0.5f - kFromEdges)})
             points[count++] = point_of(piece, uv);
     const std::span tested = std::span(hidden).first(count);
-    HiddenPoints(look, i)(std::span(points).first(count), tested);
+    HiddenPoints are_hidden(look, i, kAllDirections);
+    are_hidden(std::span(points).first(count), tested);
     const auto hides = std::size_t(std::ranges::count(tested, true));
-    return hides == 0 ? Openness::open : hides == count ? Openness::hidden : Openness::partly;
+    return {hides == 0       ? Openness::open
+            : hides == count ? Openness::hidden
+                             : Openness::partly,
+            are_hidden.successful()};
 }
 
 /// A batch of points of a lumel to test, with the addresses of their results.
@@ -329,7 +353,8 @@ struct OpenPart {
     float share;
 };
 
-OpenPart find_open_part(const LumelsInScene& look, std::size_t i)
+/// tried: directions of rays. Few others help: those by which some of its points are open do.
+OpenPart find_open_part(const LumelsInScene& look, std::size_t i, Directions tried)
 {
     const Lumel& lumel = look.lumels.lumels[i];
     OpenPart part{i, {}, 0.0f};
@@ -341,7 +366,7 @@ OpenPart find_open_part(const LumelsInScene& look, std::size_t i)
         whole += local_area(look.lumels.pieces[lumel.first_piece + k]);
         strips.emplace_back(look, i, k, side);
     }
-    HiddenPoints are_hidden(look, i);
+    HiddenPoints are_hidden(look, i, tried);
     PointTests tests;
     const auto test = [&](void (Strips::*add)(PointTests&)) {
         for (Strips& one : strips)
@@ -397,10 +422,10 @@ std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels&
                 parts[i] = {i, {}, 1.0f};
                 if (!chosen.empty() && !chosen[i])
                     continue;
-                const Openness openness = first_look(look, i);
-                if (openness == Openness::partly)
-                    parts[i] = find_open_part(look, i);
-                else if (openness == Openness::hidden)
+                const FirstLook first = first_look(look, i);
+                if (first.openness == Openness::partly)
+                    parts[i] = find_open_part(look, i, first.successful);
+                else if (first.openness == Openness::hidden)
                     parts[i].share = 0.0f;
             }
         };
