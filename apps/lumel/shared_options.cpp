@@ -200,13 +200,10 @@ void set_default_target(const Command& command, SolverOptions& solver)
         return;
     const bool has_limit = command.given("--quality") || command.given("--shots") ||
                            command.given("--time") || command.given("--dark-error");
-    const bool by_eye = method_of(solver.method).states_dark_error;
-    if (has_limit || by_eye)
+    if (has_limit)
         solver.target_error = 0.0;
-    if (!has_limit && by_eye) {
-        solver.target_quality = kGood;
-        solver.max_shots = kDefaultRays;
-    }
+    else
+        set_default_limits(solver);
 }
 
 void add_sky_directions_option(Command& command, BakeOptions& options)

@@ -4,7 +4,6 @@
 // Start at bake(), LiveScene, LiveLinks or Relight.
 //
 // Units    metres; right-handed, +y up; angles in radians; light and colours in linear Rec. 709:
-// Units    metres; right-handed, +y up; angles in radians; light and colours in linear Rec. 709:
 //          irradiance in lx, luminance in cd/m², intensity of lamps in cd.
 //          A diffuse surface of reflectance ρ under irradiance H has the luminance ρ H / π.
 // Memory   Arguments are copied; results belong to the caller. Objects made with a Device refer to
@@ -274,6 +273,14 @@ struct DensityRule {
     float texels_per_metre = 0.0f;  ///< > 0
 };
 
+/// Sides of double-sided surfaces in the map.
+enum class Sides {
+    automatic,  ///< both, with texels of their own, if light may reach both
+    both,       ///< both, always
+    brighter,   ///< the brighter side on average, per chart
+    front,      ///< the front
+};
+
 /// Sizes of the square lightmap [texels].
 struct AtlasSettings {
     float texels_per_metre = 0.0f;  ///< 0: the highest density that fits `size`
@@ -283,24 +290,31 @@ struct AtlasSettings {
     /// Maximum number of squares of this side, 1…256, used if one is too small. All squares
     /// together have at most 16384 texels a side. No chart is on two of them.
     int pages = 1;
+    /// LiveScene, and bake() with method "matrix", have one texel for both sides: automatic means
+    /// brighter there, and both is refused.
+    Sides sides = Sides::automatic;
     std::vector<DensityRule> densities;  ///< beside the file's; the last match applies
     bool coarse_afar = false;            ///< fewer texels far from cameras and detail
 };
 
-/// One primitive of one instance in the lightmap. Vertices are split at chart borders.
+/// One primitive of one instance in the lightmap, or its back. Vertices are split at chart borders.
 struct Surface {
     std::uint32_t instance = 0;                ///< index into Scene::instances()
     std::uint32_t primitive = 0;               ///< index in the source mesh or in that of the file
     std::vector<std::uint32_t> source_vertex;  ///< [V] the source primitive's vertex
     std::vector<Vec2> lightmap;                ///< [V] coordinates in 0…1, (0, 0) at the top left
     std::vector<std::uint32_t> indices;        ///< [3T] triangles in the primitive's order
+    /// Only the back of a double-sided primitive, where it has texels of its own: of those
+    /// triangles, turned. It follows its front; draw both with back-face culling, and with normals
+    /// negated here.
+    bool back = false;
     /// [V] index into pages, or empty if there is one page. A triangle has one page.
     std::vector<std::uint16_t> page;
     float texels_per_metre = 0.0f;  ///< texel density of this surface
 };
 
 /// A lightmap: RGB is H [lx], A is 0 where no surface is. Gutters are filled and seams matched for
-/// filtering. Each chart of a double-sided surface has the light of its brighter side.
+/// filtering.
 struct Map {
     int width = 0, height = 0;
     std::vector<float> rgba;  ///< [height][width][4], top row first
@@ -348,22 +362,30 @@ struct BakeSettings {
     std::map<std::string, std::string> options;
     Parts parts = Parts::all;
     std::uint32_t seed = 1;
-    double error = 0.02;     ///< target for the estimated relative error; 0: none
-    double eye_error = 0.0;  ///< target relative to the light around; only links; 0: none
+    // Targets and limits; the first that is reached ends the bake, targets once all are. If none is
+    // given, those of `lumel bake`: with links 0.005 of visible noise and an eye_error of 0.05, but
+    // at most 96 rays per lumel; with other methods an error of 0.02.
+    std::optional<double> error;  ///< target for the estimated relative error; 0: none
+    double dark_error = 0.0;      ///< target below a third of the mean light; only links; 0: none
+    double eye_error = 0.0;       ///< target relative to the light around; only links; 0: none
     /// Target for the noise that is seen on plain walls, relative to their light; only links; 0:
     /// none.
     double visible_noise = 0.0;
-    double seconds = 0.0;     ///< time limit, counted from the start of the bake; 0: none
-    std::uint64_t shots = 0;  ///< limit of shots; 0: none
+    double seconds = 0.0;          ///< time limit, counted from the start of the bake; 0: none
+    std::uint64_t shots = 0;       ///< limit of shots, with links of rays per lumel; 0: none
+    std::uint64_t max_memory = 0;  ///< limit of CPU and GPU memory, each [bytes]; 0: all available
 };
 
 /// A finished bake. Method "matrix" with Parts::all sets `relightable`, for Relight.
 struct Baked {
     Map map;
-    std::vector<Surface> surfaces;  ///< by instance, then primitive
+    std::vector<Surface> surfaces;  ///< by instance, then primitive, then side
     std::vector<Page> pages;        ///< pages of the map, at least one
     float texels_per_metre = 0.0f;
-    double error = -1.0;  ///< estimated relative error; < 0: unknown
+    double error = -1.0;      ///< estimated relative error; < 0: unknown
+    double eye_error = -1.0;  ///< relative to the light around; < 0: unknown
+    double visible_noise =
+        -1.0;  ///< of the noisiest plain walls, relative to their light; < 0: unknown
     std::uint64_t shots = 0;
     double seconds = 0.0;
     bool interrupted = false;        ///< ended by progress
@@ -372,8 +394,8 @@ struct Baked {
 };
 
 /// Builds the atlas and solves for the light; returns the same map as `lumel bake` writes. Throws
-/// Error{input} if a setting is out of range, no limit ends the bake, or no surface can be lit;
-/// Error{device}.
+/// Error{input} if a setting is out of range, no limit ends the bake, no surface can be lit, or
+/// memory does not suffice; Error{device}.
 LUMEL_API Baked bake(const Device& device, const Scene& scene, const BakeSettings& settings = {},
                      const ProgressFunction& progress = {});
 
@@ -510,10 +532,10 @@ public:
 
     /// The lightmap after the last update() or bake(), finished as by bake(), which takes time.
     Map map() const;
-    /// H [lx] of front sides without gutters and seams, in little time: RGB; A is 1 at lumels, else
-    /// 0.
+    /// H [lx] without gutters and seams, in little time: RGB; A is 1 at lumels, else 0. Where two
+    /// sides share a texel, that of the front.
     Map lumels() const;
-    const std::vector<Surface>& surfaces() const;   ///< by instance, then primitive
+    const std::vector<Surface>& surfaces() const;   ///< by instance, then primitive, then side
     const std::vector<std::string>& notes() const;  ///< atlas warnings, for the user
 
 private:

@@ -5,12 +5,15 @@
 #include <cmath>
 
 #include "api/device.h"
+#include "api/fields.h"
 #include "api/scene.h"
 #include "api/translate.h"
 #include "api/values.h"
 #include "atlas/finish/finish.h"
 #include "base/core/log.h"
+#include "jobs/bake/advice.h"
 #include "jobs/solve/lighting.h"
+#include "jobs/solve/memory_plan.h"
 #include "jobs/solve/sources.h"
 #include "methods/methods.h"
 #include "solve/solver/solver.h"
@@ -43,28 +46,41 @@ MethodOptions method_of(const BakeSettings& settings)
     return method_options(settings.method, given);
 }
 
+double checked(double limit, const char* setting)
+{
+    if (!std::isfinite(limit) || limit < 0.0)
+        refuse_setting(setting, "must be a number of 0 or more");
+    return limit;
+}
+
+SolverOptions limits_of(const BakeSettings& settings)
+{
+    SolverOptions solver;
+    solver.method = method_of(settings);
+    solver.target_error = checked(settings.error.value_or(0.0), "error");
+    solver.target_dark_error = checked(settings.dark_error, "dark_error");
+    solver.target_quality = {checked(settings.visible_noise, "visible_noise"),
+                             checked(settings.eye_error, "eye_error")};
+    solver.max_seconds = checked(settings.seconds, "seconds");
+    solver.max_shots = settings.shots;
+    if (!settings.error && !solver.has_target() && solver.max_seconds == 0.0 &&
+        solver.max_shots == 0)
+        set_default_limits(solver);
+    return solver;
+}
+
 BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
 {
     BakeOptions options;
-    options.atlas = checked_options(settings.atlas);
     options.parts = parts_of(settings.parts);
-    options.solver.method = method_of(settings);
-    options.solver.target_error = settings.error;
-    options.solver.target_quality = {settings.visible_noise, settings.eye_error};
-    options.solver.max_seconds = settings.seconds;
-    options.solver.max_shots = settings.shots;
-    if (!std::isfinite(settings.error) || settings.error < 0.0)
-        refuse_setting("error", "must be a number of 0 or more");
-    if (!std::isfinite(settings.eye_error) || settings.eye_error < 0.0)
-        refuse_setting("eye_error", "must be a number of 0 or more");
-    if (!std::isfinite(settings.visible_noise) || settings.visible_noise < 0.0)
-        refuse_setting("visible_noise", "must be a number of 0 or more");
-    if (!std::isfinite(settings.seconds) || settings.seconds < 0.0)
-        refuse_setting("seconds", "must be a number of 0 or more");
-    if (!options.solver.has_target() && settings.seconds == 0.0 && settings.shots == 0 &&
-        !has_progress)
+    options.solver = limits_of(settings);
+    options.max_memory = settings.max_memory;
+    options.atlas = checked_options(settings.atlas);
+    options.atlas = atlas_that_fits(options);
+    const SolverOptions& solver = options.solver;
+    if (!solver.has_target() && solver.max_seconds == 0.0 && solver.max_shots == 0 && !has_progress)
         refuse_setting("error", "nothing would end the bake: set an error, seconds or shots");
-    check_limits(options.solver);
+    check_limits(solver);
     return options;
 }
 
@@ -88,12 +104,26 @@ lumel::ProgressFunction follower(const ProgressFunction& progress)
     };
 }
 
-Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, const BakeOptions& options,
+/// Sentences for the user on a finished bake.
+std::vector<std::string> notes_on(const SolveScene& prepared, const Solution& solution,
+                                  const BakeOptions& options)
+{
+    std::vector<std::string> notes = advice(prepared, options.atlas);
+    if (solution.solver->state().visible_noise.worst_chart >
+        options.solver.target_quality.visible_noise)
+        notes.push_back(where_it_is_noisy(prepared.scene, solution.solver->noisy_surfaces()));
+    std::erase(notes, "");
+    return notes;
+}
+
+Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, BakeOptions options,
                  const lumel::ProgressFunction& progress)
 {
     const LogCapture log;
     Stages stages(progress);
     const Setting setting(scene, device, options, stages);
+    options.solver.max_bytes =
+        bytes_for_links(setting.prepared, options, memory_limits(options, device.info()));
     std::unique_ptr<Solution> solution = keeps_sources_apart(options)
                                              ? solve_sources(device, setting, options, stages)
                                              : solve_light(device, setting, options, stages);
@@ -108,12 +138,17 @@ Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, const Bak
     baked.pages = pages_of(prepared.atlas);
     baked.texels_per_metre = prepared.atlas.texels_per_metre;
     baked.error = solved.error;
+    baked.eye_error = solved.eye_error;
+    baked.visible_noise = solved.visible_noise.worst_chart;
     baked.shots = solved.shots;
     if (solution->relightable)
         baked.relightable = std::make_shared<RelightableBake>(RelightableBake{
             std::move(*solution->relightable), prepared.scene, prepared.atlas, prepared.lumels});
     device.check_validation();
-    baked.notes = log.messages();
+    for (const std::string& message : log.messages())
+        baked.notes.push_back(in_fields(message));
+    for (const std::string& note : notes_on(prepared, *solution, options))
+        baked.notes.push_back(in_fields(note));
     baked.seconds = stages.seconds();
     return baked;
 }

@@ -15,6 +15,10 @@ LiveOptions checked_options(const LiveSettings& settings)
     if (!(settings.residual > 0.0 && settings.residual <= 1.0))
         throw lumel::Error(lumel::ErrorKind::input, "LiveSettings::residual",
                            "must be above 0 and at most 1");
+    if (settings.atlas.sides == Sides::both)
+        throw lumel::Error(lumel::ErrorKind::input, "AtlasSettings::sides",
+                           "cannot be both in a LiveScene: it has one texel for both sides of a "
+                           "surface; use LiveLinks");
     LiveOptions options;
     options.atlas = checked_options(settings.atlas);
     options.movers = settings.movers;

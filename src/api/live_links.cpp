@@ -8,6 +8,7 @@
 #include "api/translate.h"
 #include "api/values.h"
 #include "atlas/finish/finish.h"
+#include "atlas/lumels/sides.h"
 #include "base/core/clock.h"
 #include "base/core/frame.h"
 #include "scene/values/geometry_checks.h"
@@ -205,9 +206,9 @@ Map LiveLinks::lumels() const
         Image image(lumels.width, lumels.height, 4);
         for (std::size_t i = 0; i < light.size(); ++i) {
             const Lumel& lumel = lumels.lumels[i];
-            if (lumel.flags & kLumelBack)
+            if (is_back(lumel) && !has_own_back(lumels.back_shift, lumel.chart))
                 continue;
-            float* texel = image.values.data() + std::size_t(lumel.texel) * 4;
+            float* texel = image.values.data() + std::size_t(map_texel(lumels, lumel)) * 4;
             for (int c = 0; c < 3; ++c)
                 texel[c] = light[i][c];
             texel[3] = 1.0f;

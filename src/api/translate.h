@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "api/fields.h"
 #include "base/core/error.h"
 #include "lumel/lumel.h"
 
@@ -29,7 +30,7 @@ decltype(auto) translated(Work&& work)
     try {
         return std::forward<Work>(work)();
     } catch (const lumel::Error& error) {
-        throw Error(kind_of(error.kind()), error.what());
+        throw Error(kind_of(error.kind()), in_fields(error.what()));
     }
 }
 

@@ -3,6 +3,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "api/translate.h"
+#include "atlas/lumels/sides.h"
 #include "base/core/error.h"
 
 namespace lumel::v0 {
@@ -17,6 +18,36 @@ void check_range(int value, int least, int most, const std::string& name)
         throw lumel::Error(lumel::ErrorKind::input, "AtlasSettings::" + name,
                            "is " + std::to_string(value) + ", but must lie between " +
                                std::to_string(least) + " and " + std::to_string(most));
+}
+
+lumel::Sides sides_of(Sides sides)
+{
+    switch (sides) {
+    case Sides::both:
+        return lumel::Sides::both;
+    case Sides::brighter:
+        return lumel::Sides::brighter;
+    case Sides::front:
+        return lumel::Sides::front;
+    default:
+        return lumel::Sides::automatic;
+    }
+}
+
+Surface surface_of(const lumel::Scene& scene, const Atlas& atlas, const lumel::Surface& from)
+{
+    const lumel::Mesh& mesh = scene.meshes[std::size_t(scene.instances[from.instance].mesh)];
+    Surface surface;
+    surface.instance = from.instance;
+    surface.primitive = std::uint32_t(mesh.primitives[from.primitive].source_primitive);
+    surface.source_vertex = from.source_vertex;
+    surface.indices = from.indices;
+    for (const glm::vec2& place : from.texcoord)
+        surface.lightmap.push_back({place.x / float(atlas.width), place.y / float(atlas.height)});
+    if (atlas.pages.count > 1)
+        surface.page = pages_of_vertices(atlas.pages, from);
+    surface.texels_per_metre = from.texels_per_metre;
+    return surface;
 }
 
 }  // namespace
@@ -93,7 +124,7 @@ AtlasOptions checked_options(const AtlasSettings& settings)
                          .max_size = settings.max_size,
                          .pages = settings.pages,
                          .gutter = settings.gutter,
-                         .sides = Sides::brighter,
+                         .sides = sides_of(settings.sides),
                          .coarse_afar = settings.coarse_afar};
     for (const DensityRule& rule : settings.densities) {
         if (!std::isfinite(rule.texels_per_metre) || !(rule.texels_per_metre > 0.0f))
@@ -141,19 +172,12 @@ Map map_of(Image&& image)
 std::vector<Surface> surfaces_of(const lumel::Scene& scene, const Atlas& atlas)
 {
     std::vector<Surface> surfaces;
-    const glm::vec2 size(atlas.width, atlas.height);
     for (const lumel::Surface& from : atlas.surfaces) {
-        const lumel::Mesh& mesh = scene.meshes[std::size_t(scene.instances[from.instance].mesh)];
-        Surface& surface = surfaces.emplace_back();
-        surface.instance = from.instance;
-        surface.primitive = std::uint32_t(mesh.primitives[from.primitive].source_primitive);
-        surface.source_vertex = from.source_vertex;
-        surface.indices = from.indices;
-        for (const glm::vec2& place : from.texcoord)
-            surface.lightmap.push_back({place.x / size.x, place.y / size.y});
-        if (atlas.pages.count > 1)
-            surface.page = pages_of_vertices(atlas.pages, from);
-        surface.texels_per_metre = from.texels_per_metre;
+        surfaces.push_back(surface_of(scene, atlas, from));
+        if (!has_own_back(atlas, from))
+            continue;
+        surfaces.push_back(surface_of(scene, atlas, own_back_of(atlas, from)));
+        surfaces.back().back = true;
     }
     return surfaces;
 }

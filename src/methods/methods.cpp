@@ -85,10 +85,13 @@ MethodOptions method_options(std::string_view id, const std::map<std::string, st
     MethodOptions options = method.defaults();
     for (const auto& [name, value] : given) {
         const OptionInfo* option = method.option(name);
+        const std::vector<const MethodInfo*> readers = readers_of(name);
+        if (readers.empty())
+            throw Error(ErrorKind::input, name, "is not an option of any method");
         if (!option)
             throw Error(ErrorKind::input, "--" + name,
                         "is not read by --solver " + std::string(id) + "; it belongs to --solver " +
-                            listed(readers_of(name)));
+                            listed(readers));
         if (!set_option(options, *option, value))
             throw Error(ErrorKind::input, "--" + name + " " + value,
                         "must be " + option->range() + " with the method " + std::string(id));
@@ -96,6 +99,17 @@ MethodOptions method_options(std::string_view id, const std::map<std::string, st
     for (const auto& [name, value] : given)
         check_used(method, *method.option(name), options);
     return options;
+}
+
+void set_default_limits(SolverOptions& options)
+{
+    if (!method_of(options.method).states_dark_error) {
+        options.target_error = SolverOptions{}.target_error;
+        return;
+    }
+    options.target_error = 0.0;
+    options.target_quality = kGood;
+    options.max_shots = kDefaultRays;
 }
 
 void check_limits(const SolverOptions& options)

@@ -54,6 +54,9 @@ struct SolverOptions {
     }
 };
 
+/// Sets the targets and limits of a bake that is asked for none.
+void set_default_limits(SolverOptions& options);
+
 // Options that most methods have, with a substitute for the others.
 
 inline std::uint32_t seed_of(const MethodOptions& method)

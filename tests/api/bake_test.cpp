@@ -53,6 +53,40 @@ TEST(BakeInMemory, IsWhatTheProgramWrites)
     EXPECT_EQ(baked.map.rgba, written.values);
 }
 
+TEST(BakeInMemory, WithoutLimitsHasThoseOfTheProgram)
+{
+    const lumel::test::TemporaryFolder folder;
+    BakeOptions options;
+    options.atlas.size = kSize;
+    options.solver.max_shots = 96;
+    options.solver.target_error = 0.0;
+    options.solver.target_quality = {.visible_noise = 0.005, .eye_error = 0.05};
+    options.preview_width = 0;
+    lumel::bake(scene_path("cornell-box"), folder / "baked", options);
+    const Image written = read_exr(folder / "baked/lightmap.exr");
+    const Baked baked =
+        bake(Device(), Scene::load(scene_path("cornell-box")), {.atlas = {.size = kSize}});
+    EXPECT_EQ(baked.map.rgba, written.values);
+    EXPECT_GE(baked.eye_error, 0.0);
+}
+
+TEST(BakeInMemory, OfDoubleSidedWallsHasTheLightOfEachSide)
+{
+    const Device device;
+    const AtlasSettings atlas{.size = 2 * kSize};
+    const SceneContent house = paper_house(true);
+    const Baked lit = bake(device, Scene(house), {.atlas = atlas}),
+                dark = bake(device, Scene(paper_house(false)), {.atlas = atlas});
+    expect_two_sides(lit.surfaces, lit.map, house,
+                     light_of_ceiling(dark.surfaces, dark.map, house));
+    AtlasSettings front = atlas;
+    front.sides = Sides::front;
+    const Baked one = bake(device, Scene(house), {.atlas = front});
+    EXPECT_EQ(one.surfaces.size(), 1u);
+    EXPECT_NEAR(light_of_ceiling(one.surfaces, one.map, house),
+                light_of_ceiling(dark.surfaces, dark.map, house), 2.0);
+}
+
 TEST(BakeInMemory, OfAFurnaceIsTheClosedForm)
 {
     constexpr float kAlbedo = 0.5f, kLuminance = 10.0f;
@@ -143,9 +177,9 @@ TEST(BakeInMemory, HasTheDensityThatARuleSets)
 
 TEST(BakeInMemory, EndsWhenTheHostSaysSo)
 {
-    const Baked baked =
-        bake(Device(), Scene::load(scene_path("cornell-box")), {.atlas = {.size = kSize}},
-             [](const Progress& now) { return now.stage != "solving" || now.shots < 64; });
+    const Baked baked = bake(
+        Device(), Scene::load(scene_path("cornell-box")), {.atlas = {.size = kSize}, .error = 1e-6},
+        [](const Progress& now) { return now.stage != "solving" || now.shots < 64; });
     EXPECT_TRUE(baked.interrupted);
     EXPECT_EQ(baked.map.width, kSize);
 }
@@ -175,12 +209,18 @@ TEST(BakeInMemory, RefusesSettingsByName)
     refuses({.atlas = {.size = 1 << 20}}, "size");
     refuses({.atlas = {.texels_per_metre = -1.0f}}, "texels_per_metre");
     refuses({.atlas = {.gutter = 65}}, "gutter");
-    refuses({.method = "no such method"}, "no such method");
-    refuses({.options = {{"patches", "512"}}}, "patches");
+    refuses({.atlas = {.sides = Sides::both}, .method = "matrix"}, "AtlasSettings::sides both");
+    refuses({.method = "mc"}, "BakeSettings::method mc: no such method");
+    refuses({.options = {{"patches", "512"}}},
+            "BakeSettings::options[\"patches\"]: is not read by BakeSettings::method links");
+    refuses({.options = {{"sides", "both"}}}, "sides: is not an option of any method");
+    refuses({.method = "directions", .dark_error = 0.1}, "BakeSettings::dark_error");
     refuses({.options = {{"seed", "2"}}}, "seed");
     refuses({.error = -1.0}, "error");
     refuses({.error = 0.0}, "nothing would end the bake");
     refuses({.seconds = -1.0}, "seconds");
+    expect_error(ErrorKind::device, {"BakeSettings::max_memory allows"},
+                 [&] { bake(device, scene, {.atlas = {.size = 512}, .max_memory = 1 << 20}); });
     expect_error(ErrorKind::input, {"Materials::glossy"}, [&] {
         bake(device, Scene::load(scene_path("glossy-floor")), {.method = "glossy"});
     });

@@ -62,6 +62,21 @@ TEST(LiveLinkScenes, AreAsBrightAsTheirLamps)
     EXPECT_EQ(live.surfaces().size(), 1u);
 }
 
+TEST(LiveLinkScenes, OfDoubleSidedWallsHaveTheLightOfEachSide)
+{
+    const AtlasSettings atlas{.size = 2 * kSize};
+    const SceneContent house = paper_house(true);
+    LiveLinks lit(Scene(house), {.atlas = atlas}),
+        dark(Scene(paper_house(false)), {.atlas = atlas});
+    lit.update(kUntilAtRest);
+    dark.update(kUntilAtRest);
+    const double ceiling = light_of_ceiling(dark.surfaces(), dark.map(), house);
+    expect_two_sides(lit.surfaces(), lit.map(), house, ceiling);
+    lit.set_lamp("sun", {0.0f, 0.0f, 0.0f});
+    lit.update(kUntilAtRest);
+    EXPECT_NEAR(light_of_ceiling(lit.surfaces(), lit.map(), house), ceiling, 0.1 * ceiling);
+}
+
 /// All the light of the lamp falls on the walls, which return the share that they reflect, and so
 /// on: H = D / (1 - ρ), but for lumels that lie half outside of their wall and count as whole.
 TEST(LiveLinkScenes, PaintReflectsAsMuchAsItSays)

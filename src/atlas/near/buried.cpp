@@ -41,7 +41,9 @@ class HiddenPoints {
 public:
     /// tried: directions of rays.
     HiddenPoints(const LumelsInScene& look, std::size_t i, Directions tried)
-        : look_(look), lumel_(i), tried_(tried)
+        : look_(look),
+          lumel_(i),
+          tried_(tried)
     {
     }
 

@@ -1,6 +1,7 @@
 #include "atlas/prepare/solve_scene.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "atlas/near/buried.h"
 #include "atlas/near/still_part.h"
@@ -123,7 +124,14 @@ std::unique_ptr<SolveScene> lay_out_movers(Scene scene, const AtlasOptions& opti
     for (std::uint32_t i = 0; i < moves.size(); ++i)
         if (moves[i])
             ascending.push_back(i);
-    Atlas atlas = make_atlas(scene, options);
+    // Movers block no light here, since they may leave.
+    std::optional<RayScene> still;
+    ShowsBoth shown;
+    if (options.sides == Sides::automatic || options.sides == Sides::both) {
+        still.emplace(scene, those_that_stay(scene, ascending));
+        shown = shows_both(options.sides, *still);
+    }
+    Atlas atlas = make_atlas(scene, options, {}, shown);
     Lumels lumels = make_lumels(scene, atlas, moves);
     return std::make_unique<SolveScene>(std::move(scene), std::move(atlas), std::move(lumels),
                                         std::move(ascending));

@@ -1,0 +1,61 @@
+#include "api/fields.h"
+
+#include <algorithm>
+#include <map>
+#include <regex>
+
+#include "methods/methods.h"
+
+namespace lumel::v0 {
+namespace {
+
+/// By names of options, without dashes.
+const std::map<std::string, std::string, std::less<>> kFields = {
+    {"coarse-afar", "AtlasSettings::coarse_afar"},
+    {"dark-error", "BakeSettings::dark_error"},
+    {"density", "AtlasSettings::densities"},
+    {"error", "BakeSettings::error"},
+    {"gutter", "AtlasSettings::gutter"},
+    {"max-memory", "BakeSettings::max_memory"},
+    {"max-size", "AtlasSettings::max_size"},
+    {"only", "BakeSettings::parts"},
+    {"pages", "AtlasSettings::pages"},
+    {"quality", "BakeSettings::visible_noise"},
+    {"shots", "BakeSettings::shots"},
+    {"sides", "AtlasSettings::sides"},
+    {"size", "AtlasSettings::size"},
+    {"sky", "Scene::add_daylight"},
+    {"sky-scale", "Daylight::sky_scale"},
+    {"solver", "BakeSettings::method"},
+    {"sun", "Daylight::sun"},
+    {"texels-per-metre", "AtlasSettings::texels_per_metre"},
+    {"time", "BakeSettings::seconds"},
+};
+
+/// Unchanged if there is no such field.
+std::string field_of(const std::string& option)
+{
+    if (const auto field = kFields.find(option); field != kFields.end())
+        return field->second;
+    const auto is_it = [&](const SharedOption& one) { return option == one.info->name; };
+    if (std::ranges::any_of(options_of_methods(), is_it))
+        return "BakeSettings::options[\"" + option + "\"]";
+    return "--" + option;
+}
+
+}  // namespace
+
+std::string in_fields(const std::string& message)
+{
+    static const std::regex option("--([a-z]+(-[a-z]+)*)");
+    std::string result;
+    auto from = message.cbegin();
+    for (std::sregex_iterator at(message.begin(), message.end(), option), end; at != end; ++at) {
+        result.append(from, (*at)[0].first);
+        result += field_of((*at)[1]);
+        from = (*at)[0].second;
+    }
+    return result.append(from, message.cend());
+}
+
+}  // namespace lumel::v0

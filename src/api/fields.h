@@ -1,0 +1,12 @@
+#pragma once
+// Names of settings in messages.
+
+#include <string>
+
+namespace lumel::v0 {
+
+/// The message with fields of lumel.h in place of options of the command line:
+/// "AtlasSettings::size" for "--size".
+std::string in_fields(const std::string& message);
+
+}  // namespace lumel::v0
