@@ -18,6 +18,7 @@
 #include "jobs/edit/solution_file.h"
 #include "results/files/folder.h"
 #include "results/files/gltf_write.h"
+#include "results/preview/background.h"
 #include "results/preview/preview.h"
 #include "results/record/origin.h"
 
@@ -126,11 +127,21 @@ std::optional<DrawnPreview> draw_preview(const gpu::Device& device, const SolveS
         Preview preview(device, prepared.scene, prepared.atlas);
         const auto seen = choose_exposure(preview.draw(prepared.scene, map, view, width));
         const float exposure = seen ? *seen : exposure_of(radiance);
-        return DrawnPreview{preview.tone_mapped(exposure), exposure};
+        Image picture = preview.tone_mapped(exposure);
+        put_sky_behind(picture, prepared.scene.sky, view, exposure);
+        return DrawnPreview{std::move(picture), exposure};
     } catch (const Error& error) {
         log_warning(std::string("no ") + kPreview + ": " + error.what());
         return std::nullopt;
     }
+}
+
+/// The camera of preview.png for scene.glb, whose input has none.
+std::optional<AddedCamera> camera_for(const SolveScene& prepared, const std::optional<View>& view)
+{
+    if (!view || !prepared.scene.cameras.empty())
+        return std::nullopt;
+    return AddedCamera{.view = *view, .extent = prepared.extent()};
 }
 
 /// The texture of scene-baked.glb [cd/m²]: as dense as the scene's own, within the limit.
@@ -177,14 +188,16 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
     write_map(folder, kLightmapName, map, options.half, prepared, stages, written.exposure,
               maps.layers);
     write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open, error);
+    const std::optional<AddedCamera> camera = camera_for(prepared, written.view);
     // If only indirect light is baked, viewers add direct light of lamps themselves.
     write_scene_glb(folder.path(kSceneFile), prepared.scene, prepared.atlas, map,
                     {.keep = options.keep_lights || options.parts == Parts::indirect,
                      .exposure = written.exposure,
-                     .format = options.lightmap_format});
+                     .format = options.lightmap_format,
+                     .camera = camera});
     const Image shown =
         tone_map(baked_texture(options, prepared, map, radiance, stages), exposure_of_radiance);
-    write_baked_glb(folder.path("scene-baked.glb"), prepared.scene, prepared.atlas, shown);
+    write_baked_glb(folder.path("scene-baked.glb"), prepared.scene, prepared.atlas, shown, camera);
     return written;
 }
 

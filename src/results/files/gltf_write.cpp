@@ -27,6 +27,9 @@ constexpr double kHigh = 0.999;
 // Largest value that they store.
 constexpr float kLargestFloat = 65000.0f;
 
+// Range of depths of an added camera, relative to the scene's diagonal.
+constexpr float kNearest = 1e-3f, kFarthest = 10.0f;
+
 // Irradiance of a white texel.
 float lightmap_scale(const Image& map, std::optional<float> exposure)
 {
@@ -65,6 +68,29 @@ void tell_of_lights(Json& gltf, const SceneLighting& lights)
         told["exposure"] = *lights.exposure;
     told["bakedLights"] = lights.keep ? 0 : put_away_lights(gltf);
     extras_of(gltf["asset"])["lumel"] = std::move(told);
+}
+
+/// Adds the camera to the default scene. origin: Scene::origin.
+void add_camera(Json& gltf, const AddedCamera& camera, const glm::dvec3& origin)
+{
+    const View& view = camera.view;
+    gltf["cameras"].push_back({{"type", "perspective"},
+                               {"perspective",
+                                {{"yfov", view.vertical_fov},
+                                 {"aspectRatio", view.aspect},
+                                 {"znear", kNearest * camera.extent},
+                                 {"zfar", kFarthest * camera.extent}}}});
+    glm::dmat4 place(view.transform);
+    place[3] += glm::dvec4(origin, 0.0);
+    Json matrix = Json::array();
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            matrix.push_back(place[column][row]);
+    const std::size_t node = gltf["nodes"].size();
+    gltf["nodes"].push_back(
+        {{"name", "preview"}, {"camera", gltf["cameras"].size() - 1}, {"matrix", matrix}});
+    if (const auto scenes = gltf.find("scenes"); scenes != gltf.end() && !scenes->empty())
+        (*scenes)[gltf.value("scene", std::size_t(0))]["nodes"].push_back(node);
 }
 
 std::size_t add_lightmap(GlbBuilder& builder, const Image& map, float scale,
@@ -112,6 +138,8 @@ void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& a
             builder.retire_texture(old);
         builder.release();
         tell_of_lights(builder.json, lights);  // data that they refer to is unused from here on
+        if (lights.camera)
+            add_camera(builder.json, *lights.camera, scene.origin);
     };
     rewrite(path, scene, atlas, prepare, [&](GlbBuilder& builder, const auto& materials) {
         const float scale = lightmap_scale(map, lights.exposure);
@@ -128,11 +156,13 @@ void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& a
 }
 
 void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
-                     const Image& shown)
+                     const Image& shown, const std::optional<AddedCamera>& camera)
 {
     const auto prepare = [&](GlbBuilder& builder, const auto& materials) {
         reduce_to_core(builder.json, materials);
         builder.release();
+        if (camera)
+            add_camera(builder.json, *camera, scene.origin);
     };
     rewrite(path, scene, atlas, prepare, [&](GlbBuilder& builder, const auto& materials) {
         erase_extensions(builder.json);

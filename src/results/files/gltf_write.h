@@ -14,14 +14,22 @@
 #include "base/core/image.h"
 #include "base/images/lightmap_format.h"
 #include "scene/values/scene.h"
+#include "scene/values/view.h"
 
 namespace lumel {
+
+/// A camera for a scene that has none.
+struct AddedCamera {
+    View view;     ///< perspective
+    float extent;  ///< diagonal of the scene [m]
+};
 
 /// Light properties for scene.glb.
 struct SceneLighting {
     bool keep = false;              ///< keeps lamps and skies of the input
     std::optional<float> exposure;  ///< exposure for the scene [1/lx]
     LightmapFormat format = LightmapFormat::ktx2;
+    std::optional<AddedCamera> camera;
 };
 
 /// scene.glb: the map is bound by MOZ_lightmap {index, texCoord: 1, intensity} on every baked
@@ -35,15 +43,17 @@ struct SceneLighting {
 /// extension keep extras. map: irradiance [lx], RGBA. Throws Error.
 ///
 /// Lamps and skies of the input are baked: they move to extras (see scene/gltf/baked_lights.h),
-/// unless `lights` keeps them. asset.extras.lumel has their number and the exposure.
+/// unless `lights` keeps them. asset.extras.lumel has their number and the exposure. A camera of
+/// `lights` is added as the node "preview" of the default scene.
 void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
                      const Image& map, const SceneLighting& lights = {});
 
 /// scene-baked.glb: core glTF that any viewer shows lit. Every baked material is black, fully
 /// metallic and rough, so that it reflects nothing, and emits an 8-bit sRGB texture on TEXCOORD_1.
 /// Cut-outs and blending keep their alpha. Lights and material extensions are removed. shown: light
-/// from surfaces, tone-mapped by tone_map, RGBA, of any density. Throws Error.
+/// from surfaces, tone-mapped by tone_map, RGBA, of any density. camera: added as in scene.glb.
+/// Throws Error.
 void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
-                     const Image& shown);
+                     const Image& shown, const std::optional<AddedCamera>& camera = {});
 
 }  // namespace lumel

@@ -38,6 +38,37 @@ TEST_F(TwoQuads, NamesExtrasAndLightsAreKept)
     EXPECT_EQ(json["nodes"][3], file()["nodes"][3]);
 }
 
+TEST_F(TwoQuads, AnAddedCameraSeesFromWhereItIs)
+{
+    constexpr float kExtent = 4.0f;
+    for (const double far : {0.0, 1e6}) {
+        Json json = file();
+        for (const int root : {0, 1})
+            json["nodes"][std::size_t(root)]["translation"] = {far + 2.0 * root, 0.0, 0.0};
+        const Scene read = scene(json);
+        const Atlas atlas = test::corner_atlas(read);
+        View view{.vertical_fov = 1.1f, .aspect = 1.5f};
+        view.transform = glm::mat4({0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {1, 2, 3, 1});
+        write_scene_glb(folder_ / "scene.glb", read, atlas, test::any_map(atlas),
+                        {.camera = AddedCamera{view, kExtent}});
+        write_baked_glb(folder_ / "baked.glb", read, atlas, test::any_map(atlas),
+                        AddedCamera{view, kExtent});
+        EXPECT_EQ(load_gltf_document(folder_ / "baked.glb").json["cameras"],
+                  load_gltf_document(folder_ / "scene.glb").json["cameras"]);
+        const Scene again = read_gltf(folder_ / "scene.glb");
+        ASSERT_EQ(again.cameras.size(), 1u);
+        const View seen = view_of(again.cameras[0]);
+        EXPECT_EQ(seen.vertical_fov, view.vertical_fov);
+        EXPECT_EQ(seen.aspect, view.aspect);
+        const glm::vec3 apart = again.origin - read.origin;
+        for (int c = 0; c < 4; ++c)
+            for (int r = 0; r < 3; ++r)
+                EXPECT_NEAR(seen.transform[c][r] + (c == 3 ? apart[r] : 0.0f), view.transform[c][r],
+                            1e-6)
+                    << far;
+    }
+}
+
 TEST_F(TwoQuads, TheLightmapIsBoundByAnOptionalExtension)
 {
     const Json json = lit(file());
