@@ -104,18 +104,6 @@ lumel::ProgressFunction follower(const ProgressFunction& progress)
     };
 }
 
-/// Sentences for the user on a finished bake.
-std::vector<std::string> notes_on(const SolveScene& prepared, const Solution& solution,
-                                  const BakeOptions& options)
-{
-    std::vector<std::string> notes = advice(prepared, options.atlas);
-    if (solution.solver->state().visible_noise.worst_chart >
-        options.solver.target_quality.visible_noise)
-        notes.push_back(where_it_is_noisy(prepared.scene, solution.solver->noisy_surfaces()));
-    std::erase(notes, "");
-    return notes;
-}
-
 Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, BakeOptions options,
                  const lumel::ProgressFunction& progress)
 {
@@ -147,8 +135,8 @@ Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, BakeOptio
     device.check_validation();
     for (const std::string& message : log.messages())
         baked.notes.push_back(in_fields(message));
-    for (const std::string& note : notes_on(prepared, *solution, options))
-        baked.notes.push_back(in_fields(note));
+    for (const std::string& sentence : advice(prepared, options, *solution->solver))
+        baked.notes.push_back(in_fields(sentence));
     baked.seconds = stages.seconds();
     return baked;
 }

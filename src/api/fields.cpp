@@ -47,12 +47,13 @@ std::string field_of(const std::string& option)
 
 std::string in_fields(const std::string& message)
 {
-    static const std::regex option("--([a-z]+(-[a-z]+)*)");
+    // At the beginning of a word: not in the name of a file.
+    static const std::regex option("(^|[ (\"])--([a-z]+(-[a-z]+)*)");
     std::string result;
     auto from = message.cbegin();
     for (std::sregex_iterator at(message.begin(), message.end(), option), end; at != end; ++at) {
-        result.append(from, (*at)[0].first);
-        result += field_of((*at)[1]);
+        result.append(from, (*at)[1].second);
+        result += field_of((*at)[2]);
         from = (*at)[0].second;
     }
     return result.append(from, message.cend());

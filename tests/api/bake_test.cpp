@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../support/temporary_folder.h"
+#include "api/fields.h"
 #include "base/images/image_files.h"
 #include "boxes.h"
 #include "jobs/bake/bake.h"
@@ -182,6 +183,13 @@ TEST(BakeInMemory, EndsWhenTheHostSaysSo)
         [](const Progress& now) { return now.stage != "solving" || now.shots < 64; });
     EXPECT_TRUE(baked.interrupted);
     EXPECT_EQ(baked.map.width, kSize);
+}
+
+TEST(Messages, SpeakOfFieldsAndLeaveNamesOfFiles)
+{
+    EXPECT_EQ(in_fields("--size: raise --max-memory (--rays host), not --unknown of a--size.glb"),
+              "AtlasSettings::size: raise BakeSettings::max_memory "
+              "(BakeSettings::options[\"rays\"] host), not --unknown of a--size.glb");
 }
 
 TEST(BakeInMemory, GivesItsMessagesToTheHost)

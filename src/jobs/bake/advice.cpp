@@ -105,4 +105,14 @@ std::string where_it_is_noisy(const Scene& scene, const std::vector<NoisySurface
     return "noise may still be seen on " + names + "; see the errors in the page of lumel report";
 }
 
+std::vector<std::string> advice(const SolveScene& prepared, const BakeOptions& options,
+                                const Solver& solver)
+{
+    std::vector<std::string> sentences = advice(prepared, options.atlas);
+    if (solver.state().visible_noise.worst_chart > options.solver.target_quality.visible_noise)
+        sentences.push_back(where_it_is_noisy(prepared.scene, solver.noisy_surfaces()));
+    std::erase(sentences, "");
+    return sentences;
+}
+
 }  // namespace lumel

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "atlas/prepare/solve_scene.h"
-#include "solve/solver/solver_state.h"
+#include "jobs/solve/bake_options.h"
+#include "solve/solver/solver.h"
 
 namespace lumel {
 
@@ -15,5 +16,9 @@ std::vector<std::string> advice(const SolveScene& prepared, const AtlasOptions& 
 
 /// A sentence on where noise is still seen, at most three names; empty if nothing has one.
 std::string where_it_is_noisy(const Scene& scene, const std::vector<NoisySurface>& surfaces);
+
+/// What a user is told after a solve: advice(), and where noise is above the target.
+std::vector<std::string> advice(const SolveScene& prepared, const BakeOptions& options,
+                                const Solver& solver);
 
 }  // namespace lumel

@@ -97,13 +97,8 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     if (!lit && has_sources(setting.prepared))
         stages.warn("no light reaches any surface: the lightmap is black");
     stages.begin("finishing");
-    for (const std::string& sentence : advice(setting.prepared, options.atlas))
+    for (const std::string& sentence : advice(setting.prepared, options, *solution->solver))
         stages.tell(sentence);
-    if (solved.visible_noise.worst_chart > options.solver.target_quality.visible_noise)
-        if (const std::string where =
-                where_it_is_noisy(setting.prepared.scene, solution->solver->noisy_surfaces());
-            !where.empty())
-            stages.tell(where);
     const Results results{.shots = solved.shots,
                           .iterations = solved.iterations,
                           .error = lit ? solved.error : -1.0,
