@@ -291,7 +291,7 @@ struct AtlasSettings {
     /// together have at most 16384 texels a side. No chart is on two of them.
     int pages = 1;
     /// LiveScene, and bake() with method "matrix", have one texel for both sides: automatic means
-    /// brighter there, and both is refused.
+    /// brighter there, and both is refused. In LiveLinks so do movers with automatic.
     Sides sides = Sides::automatic;
     std::vector<DensityRule> densities;  ///< beside the file's; the last match applies
     bool coarse_afar = false;            ///< fewer texels far from cameras and detail
@@ -304,9 +304,9 @@ struct Surface {
     std::vector<std::uint32_t> source_vertex;  ///< [V] the source primitive's vertex
     std::vector<Vec2> lightmap;                ///< [V] coordinates in 0…1, (0, 0) at the top left
     std::vector<std::uint32_t> indices;        ///< [3T] triangles in the primitive's order
-    /// Only the back of a double-sided primitive, where it has texels of its own: of those
-    /// triangles, turned. It follows its front; draw both with back-face culling, and with normals
-    /// negated here.
+    /// True for the back of the preceding surface, if any of it has texels of its own: the same
+    /// triangles with reversed winding; negate the normals. Draw both with back-face culling, and
+    /// double-sided primitives without a back without culling.
     bool back = false;
     /// [V] index into pages, or empty if there is one page. A triangle has one page.
     std::vector<std::uint16_t> page;
@@ -372,7 +372,7 @@ struct BakeSettings {
     /// none.
     double visible_noise = 0.0;
     double seconds = 0.0;          ///< time limit, counted from the start of the bake; 0: none
-    std::uint64_t shots = 0;       ///< limit of shots, with links of rays per lumel; 0: none
+    std::uint64_t shots = 0;       ///< limit of shots, with links: rays per lumel; 0: none
     std::uint64_t max_memory = 0;  ///< limit of CPU and GPU memory, each [bytes]; 0: all available
 };
 
@@ -384,8 +384,9 @@ struct Baked {
     float texels_per_metre = 0.0f;
     double error = -1.0;      ///< estimated relative error; < 0: unknown
     double eye_error = -1.0;  ///< relative to the light around; < 0: unknown
-    double visible_noise =
-        -1.0;  ///< of the noisiest plain walls, relative to their light; < 0: unknown
+    /// Of plain walls, relative to their light: 95 % of charts, by the roots of their areas, have
+    /// less; < 0: unknown.
+    double visible_noise = -1.0;
     std::uint64_t shots = 0;
     double seconds = 0.0;
     bool interrupted = false;        ///< ended by progress
@@ -394,8 +395,9 @@ struct Baked {
 };
 
 /// Builds the atlas and solves for the light; returns the same map as `lumel bake` writes. Throws
-/// Error{input} if a setting is out of range, no limit ends the bake, no surface can be lit, or
-/// memory does not suffice; Error{device}.
+/// Error{input} if a setting is out of range, no limit ends the bake, or no surface can be lit;
+/// Error{device}, also if memory does not suffice: the Device remains usable if that is known
+/// before the solve.
 LUMEL_API Baked bake(const Device& device, const Scene& scene, const BakeSettings& settings = {},
                      const ProgressFunction& progress = {});
 

@@ -75,6 +75,7 @@ BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
     options.parts = parts_of(settings.parts);
     options.solver = limits_of(settings);
     options.max_memory = settings.max_memory;
+    options.preview_width = 0;
     options.atlas = checked_options(settings.atlas);
     options.atlas = atlas_that_fits(options);
     const SolverOptions& solver = options.solver;
@@ -109,9 +110,10 @@ Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, BakeOptio
 {
     const LogCapture log;
     Stages stages(progress);
+    const MemoryLimits limits = memory_limits(options, device.info());
+    check_memory(scene, options, limits);
     const Setting setting(scene, device, options, stages);
-    options.solver.max_bytes =
-        bytes_for_links(setting.prepared, options, memory_limits(options, device.info()));
+    options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
     std::unique_ptr<Solution> solution = keeps_sources_apart(options)
                                              ? solve_sources(device, setting, options, stages)
                                              : solve_light(device, setting, options, stages);
@@ -120,23 +122,24 @@ Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, BakeOptio
     Baked baked;
     baked.interrupted = stages.stopped();
     stages.begin("finishing");
+    tell_advice(prepared, options, *solution, stages);
     baked.map =
         map_of(finish_map(prepared.scene, prepared.atlas, prepared.lumels, solution->irradiance));
     baked.surfaces = surfaces_of(prepared.scene, prepared.atlas);
     baked.pages = pages_of(prepared.atlas);
     baked.texels_per_metre = prepared.atlas.texels_per_metre;
-    baked.error = solved.error;
-    baked.eye_error = solved.eye_error;
-    baked.visible_noise = solved.visible_noise.worst_chart;
+    // Without light there is no error.
+    if (is_lit(solution->irradiance)) {
+        baked.error = solved.error;
+        baked.eye_error = solved.eye_error;
+        baked.visible_noise = solved.visible_noise.worst_chart;
+    }
     baked.shots = solved.shots;
     if (solution->relightable)
         baked.relightable = std::make_shared<RelightableBake>(RelightableBake{
             std::move(*solution->relightable), prepared.scene, prepared.atlas, prepared.lumels});
     device.check_validation();
-    for (const std::string& message : log.messages())
-        baked.notes.push_back(in_fields(message));
-    for (const std::string& sentence : advice(prepared, options, *solution->solver))
-        baked.notes.push_back(in_fields(sentence));
+    baked.notes = in_fields(log.messages());
     baked.seconds = stages.seconds();
     return baked;
 }

@@ -14,13 +14,14 @@ const std::map<std::string, std::string, std::less<>> kFields = {
     {"coarse-afar", "AtlasSettings::coarse_afar"},
     {"dark-error", "BakeSettings::dark_error"},
     {"density", "AtlasSettings::densities"},
+    {"device", "Device::Device"},
     {"error", "BakeSettings::error"},
     {"gutter", "AtlasSettings::gutter"},
     {"max-memory", "BakeSettings::max_memory"},
     {"max-size", "AtlasSettings::max_size"},
     {"only", "BakeSettings::parts"},
     {"pages", "AtlasSettings::pages"},
-    {"quality", "BakeSettings::visible_noise"},
+    {"quality", "BakeSettings::visible_noise or eye_error"},
     {"shots", "BakeSettings::shots"},
     {"sides", "AtlasSettings::sides"},
     {"size", "AtlasSettings::size"},
@@ -57,6 +58,14 @@ std::string in_fields(const std::string& message)
         from = (*at)[0].second;
     }
     return result.append(from, message.cend());
+}
+
+std::vector<std::string> in_fields(const std::vector<std::string>& messages)
+{
+    std::vector<std::string> result;
+    for (const std::string& message : messages)
+        result.push_back(in_fields(message));
+    return result;
 }
 
 }  // namespace lumel::v0

@@ -1,4 +1,5 @@
 #include "api/device.h"
+#include "api/fields.h"
 #include "api/scene.h"
 #include "api/translate.h"
 #include "api/values.h"
@@ -47,12 +48,14 @@ struct LiveImpl {
     lumel::LiveScene live;
     std::vector<glm::mat4> given;  ///< [instances] transforms in the scene
     std::vector<Surface> surfaces;
+    std::vector<std::string> notes;
     LiveState state;
 
     LiveImpl(const gpu::Device& on, const lumel::Scene& scene, const LiveOptions& options)
         : device(&on),
           live(on, scene, options),
-          surfaces(surfaces_of(live.scene(), live.atlas()))
+          surfaces(surfaces_of(live.scene(), live.atlas())),
+          notes(in_fields(live.atlas().notes))
     {
         for (const lumel::Instance& instance : scene.instances)
             given.push_back(instance.transform);
@@ -142,7 +145,7 @@ const std::vector<Surface>& LiveScene::surfaces() const
 
 const std::vector<std::string>& LiveScene::notes() const
 {
-    return impl_->live.atlas().notes;
+    return impl_->notes;
 }
 
 DeviceImage device_image(const LiveScene& live)

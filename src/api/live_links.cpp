@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "api/fields.h"
 #include "api/scene.h"
 #include "api/translate.h"
 #include "api/values.h"
@@ -75,6 +76,7 @@ struct LinksImpl {
     lumel::LiveLinks live;
     std::vector<glm::mat4> given;  ///< [instances] transforms in the scene
     std::vector<Surface> surfaces;
+    std::vector<std::string> notes;
     LiveLinksState state;
 
     LinksImpl(const lumel::Scene& scene, const LiveLinksSettings& settings)
@@ -82,7 +84,8 @@ struct LinksImpl {
           baking{.seed = settings.seed, .filter = settings.filter},
           live(lay_out_movers(scene, checked_options(settings.atlas), movers),
                links_options(settings)),
-          surfaces(surfaces_of(live.scene(), live.atlas()))
+          surfaces(surfaces_of(live.scene(), live.atlas())),
+          notes(in_fields(live.atlas().notes))
     {
         for (const lumel::Instance& instance : scene.instances)
             given.push_back(instance.transform);
@@ -224,7 +227,7 @@ const std::vector<Surface>& LiveLinks::surfaces() const
 
 const std::vector<std::string>& LiveLinks::notes() const
 {
-    return impl_->live.atlas().notes;
+    return impl_->notes;
 }
 
 }  // namespace lumel::v0

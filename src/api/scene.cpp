@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "api/fields.h"
 #include "api/translate.h"
 #include "api/values.h"
 #include "scene/load/albedo_cap.h"
@@ -42,9 +43,10 @@ MaterialModel model_of(Materials materials)
     return materials == Materials::glossy ? MaterialModel::glossy : MaterialModel::diffuse;
 }
 
-lumel::Scene with_cap(lumel::Scene scene)
+lumel::Scene finished(lumel::Scene scene)
 {
     cap_albedo(scene, scene.max_albedo);
+    scene.warnings = in_fields(scene.warnings);
     return scene;
 }
 
@@ -54,13 +56,13 @@ Scene Scene::load(const std::string& path, Materials materials)
 {
     return translated([&] {
         return Scene(std::make_unique<SceneImpl>(
-            SceneImpl{with_cap(lumel::read_gltf(path, model_of(materials)))}));
+            SceneImpl{finished(lumel::read_gltf(path, model_of(materials)))}));
     });
 }
 
 Scene::Scene(const SceneContent& content)
     : impl_(translated(
-          [&] { return std::make_unique<SceneImpl>(SceneImpl{with_cap(scene_of(content))}); }))
+          [&] { return std::make_unique<SceneImpl>(SceneImpl{finished(scene_of(content))}); }))
 {
 }
 
@@ -75,6 +77,7 @@ void Scene::add_daylight(const Daylight& daylight)
     translated([&] {
         lumel::Scene changed = impl_->scene;
         add_lights(changed, options_of(daylight));
+        changed.warnings = in_fields(changed.warnings);
         impl_->scene = std::move(changed);
     });
 }

@@ -176,7 +176,7 @@ std::vector<Surface> surfaces_of(const lumel::Scene& scene, const Atlas& atlas)
         surfaces.push_back(surface_of(scene, atlas, from));
         if (!has_own_back(atlas, from))
             continue;
-        surfaces.push_back(surface_of(scene, atlas, own_back_of(atlas, from)));
+        surfaces.push_back(surface_of(scene, atlas, back_of(atlas, from)));
         surfaces.back().back = true;
     }
     return surfaces;

@@ -1,5 +1,6 @@
 // Bakes in memory.
 
+#include <algorithm>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -86,6 +87,43 @@ TEST(BakeInMemory, OfDoubleSidedWallsHasTheLightOfEachSide)
     EXPECT_EQ(one.surfaces.size(), 1u);
     EXPECT_NEAR(light_of_ceiling(one.surfaces, one.map, house),
                 light_of_ceiling(dark.surfaces, dark.map, house), 2.0);
+}
+
+/// A closed box and a sheet beside it, in one primitive, between two suns: light reaches both sides
+/// of the sheet alone.
+TEST(BakeInMemory, HasBacksOfAllTrianglesIfSomeAreLitOnBothSides)
+{
+    SceneContent content = paper_house(true);
+    content.lights[0] = content.lights[1];
+    content.lights[0].direction = {0.0f, 1.0f, 0.0f};
+    Primitive& primitive = content.meshes[0].primitives[0];
+    const auto first = std::uint32_t(primitive.positions.size());
+    primitive.positions.insert(primitive.positions.end(),
+                               {{3, 0, 0}, {3, 0, 1}, {4, 0, 1}, {4, 0, 0}});
+    for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u})
+        primitive.indices.push_back(first + i);
+    const Baked baked = bake(Device(), Scene(content), {.atlas = {.size = 2 * kSize}});
+    ASSERT_EQ(baked.surfaces.size(), 2u);
+    const Surface &front = baked.surfaces[0], &back = baked.surfaces[1];
+    EXPECT_TRUE(back.back);
+    ASSERT_EQ(back.indices.size(), front.indices.size());
+    int own = 0;
+    for (std::size_t t = 0; t < front.indices.size(); t += 3) {
+        EXPECT_EQ(back.indices[t + 1], front.indices[t + 2]);
+        own += back.lightmap[back.indices[t]] != front.lightmap[back.indices[t]];
+    }
+    EXPECT_EQ(own, 2);
+}
+
+TEST(BakeInMemory, ThatNoLightReachesHasNoErrorAndANote)
+{
+    SceneContent content = closed_cube({});
+    content.lights = {{.name = "outside", .intensity = 10.0f, .position = {0.0f, 5.0f, 0.0f}}};
+    const Baked baked = bake(Device(), Scene(content), {.atlas = {.size = kSize}});
+    EXPECT_LT(baked.error, 0.0);
+    EXPECT_LT(baked.eye_error, 0.0);
+    EXPECT_NE(std::ranges::find(baked.notes, "no light reaches any surface: the lightmap is black"),
+              baked.notes.end());
 }
 
 TEST(BakeInMemory, OfAFurnaceIsTheClosedForm)

@@ -77,6 +77,21 @@ TEST(LiveLinkScenes, OfDoubleSidedWallsHaveTheLightOfEachSide)
     EXPECT_NEAR(light_of_ceiling(lit.surfaces(), lit.map(), house), ceiling, 0.1 * ceiling);
 }
 
+TEST(LiveLinkScenes, HaveOneSideOfMovers)
+{
+    SceneContent content = paper_house(true);
+    content.instances.push_back(content.instances[0]);
+    content.instances[1].transform[12] = 5.0f;
+    LiveLinks live{Scene(content), {.atlas = {.size = 2 * kSize}, .movers = {0}}};
+    ASSERT_EQ(live.surfaces().size(), 2u);
+    EXPECT_FALSE(live.surfaces()[1].back);
+    content.lights[0].position = {5.0f, 0.0f, 0.0f};  // in the one that stays
+    LiveLinks lit{Scene(content), {.atlas = {.size = 2 * kSize}, .movers = {0}}};
+    ASSERT_EQ(lit.surfaces().size(), 3u);
+    EXPECT_TRUE(lit.surfaces()[2].back);
+    EXPECT_EQ(lit.surfaces()[2].instance, 1u);
+}
+
 /// All the light of the lamp falls on the walls, which return the share that they reflect, and so
 /// on: H = D / (1 - ρ), but for lumels that lie half outside of their wall and count as whole.
 TEST(LiveLinkScenes, PaintReflectsAsMuchAsItSays)

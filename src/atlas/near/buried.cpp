@@ -69,7 +69,7 @@ public:
         }
     }
 
-    /// Directions that left the surface from any point so far.
+    /// Directions by which points were first found open.
     Directions successful() const { return successful_; }
 
 private:
@@ -355,7 +355,7 @@ struct OpenPart {
     float share;
 };
 
-/// tried: directions of rays. Few others help: those by which some of its points are open do.
+/// tried: directions of rays. Those that opened no point of the first look rarely open others.
 OpenPart find_open_part(const LumelsInScene& look, std::size_t i, Directions tried)
 {
     const Lumel& lumel = look.lumels.lumels[i];

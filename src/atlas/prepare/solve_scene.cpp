@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "atlas/near/buried.h"
 #include "atlas/near/still_part.h"
@@ -124,14 +125,24 @@ std::unique_ptr<SolveScene> lay_out_movers(Scene scene, const AtlasOptions& opti
     for (std::uint32_t i = 0; i < moves.size(); ++i)
         if (moves[i])
             ascending.push_back(i);
-    // Movers block no light here, since they may leave.
+    // Movers block no light here, since they may leave. Rays from inside of them would leave, too,
+    // so their sides share texels.
     std::optional<RayScene> still;
     ShowsBoth shown;
     if (options.sides == Sides::automatic || options.sides == Sides::both) {
         still.emplace(scene, those_that_stay(scene, ascending));
         shown = shows_both(options.sides, *still);
     }
-    Atlas atlas = make_atlas(scene, options, {}, shown);
+    const auto of_still_ones = [&](const Scene& placed,
+                                   std::span<const std::vector<TriangleOf>> charts) {
+        std::vector<char> both = shown(placed, charts);
+        for (std::size_t chart = 0; chart < charts.size(); ++chart)
+            if (!charts[chart].empty() && moves[charts[chart].front().instance])
+                both[chart] = 0;
+        return both;
+    };
+    Atlas atlas = make_atlas(scene, options, {},
+                             options.sides == Sides::automatic ? ShowsBoth(of_still_ones) : shown);
     Lumels lumels = make_lumels(scene, atlas, moves);
     return std::make_unique<SolveScene>(std::move(scene), std::move(atlas), std::move(lumels),
                                         std::move(ascending));

@@ -6,6 +6,7 @@
 
 #include "base/core/luminance.h"
 #include "scene/values/sky.h"
+#include "solve/solver/solver.h"
 
 namespace lumel {
 namespace {
@@ -18,6 +19,15 @@ constexpr std::size_t kFewObjects = 4;
 constexpr std::size_t kMostNames = 3;
 /// A clear sky gives about a tenth of the sun's light, a hazy one more.
 constexpr double kDarkSky = 0.02;
+
+/// False if the scene has no light sources; the reader has warned then.
+bool has_sources(const SolveScene& prepared)
+{
+    const std::vector<Lumel>& lumels = prepared.lumels.lumels;
+    return has_lights(prepared.scene) ||
+           std::any_of(lumels.begin(), lumels.end(),
+                       [](const Lumel& lumel) { return lumel.emission != glm::vec3(0.0f); });
+}
 
 std::string percent(double fraction)
 {
@@ -105,14 +115,24 @@ std::string where_it_is_noisy(const Scene& scene, const std::vector<NoisySurface
     return "noise may still be seen on " + names + "; see the errors in the page of lumel report";
 }
 
-std::vector<std::string> advice(const SolveScene& prepared, const BakeOptions& options,
-                                const Solver& solver)
+bool is_lit(const std::vector<glm::vec3>& irradiance)
 {
+    return std::any_of(irradiance.begin(), irradiance.end(),
+                       [](const glm::vec3& light) { return light != glm::vec3(0.0f); });
+}
+
+void tell_advice(const SolveScene& prepared, const BakeOptions& options, const Solution& solution,
+                 Stages& stages)
+{
+    if (!is_lit(solution.irradiance) && has_sources(prepared))
+        stages.warn("no light reaches any surface: the lightmap is black");
     std::vector<std::string> sentences = advice(prepared, options.atlas);
-    if (solver.state().visible_noise.worst_chart > options.solver.target_quality.visible_noise)
-        sentences.push_back(where_it_is_noisy(prepared.scene, solver.noisy_surfaces()));
+    if (solution.solver->state().visible_noise.worst_chart >
+        options.solver.target_quality.visible_noise)
+        sentences.push_back(where_it_is_noisy(prepared.scene, solution.solver->noisy_surfaces()));
     std::erase(sentences, "");
-    return sentences;
+    for (const std::string& sentence : sentences)
+        stages.tell(sentence);
 }
 
 }  // namespace lumel

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "atlas/prepare/solve_scene.h"
-#include "jobs/solve/bake_options.h"
-#include "solve/solver/solver.h"
+#include "jobs/solve/lighting.h"
+#include "jobs/solve/stages.h"
+#include "solve/solver/solver_state.h"
 
 namespace lumel {
 
@@ -17,8 +18,11 @@ std::vector<std::string> advice(const SolveScene& prepared, const AtlasOptions& 
 /// A sentence on where noise is still seen, at most three names; empty if nothing has one.
 std::string where_it_is_noisy(const Scene& scene, const std::vector<NoisySurface>& surfaces);
 
-/// What a user is told after a solve: advice(), and where noise is above the target.
-std::vector<std::string> advice(const SolveScene& prepared, const BakeOptions& options,
-                                const Solver& solver);
+/// True if any light arrives.
+bool is_lit(const std::vector<glm::vec3>& irradiance);
+
+/// After a solve: warns if no light arrives although there are sources, and gives advice().
+void tell_advice(const SolveScene& prepared, const BakeOptions& options, const Solution& solution,
+                 Stages& stages);
 
 }  // namespace lumel

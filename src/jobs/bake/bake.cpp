@@ -24,21 +24,6 @@
 namespace lumel {
 namespace {
 
-bool is_lit(const std::vector<glm::vec3>& irradiance)
-{
-    return std::any_of(irradiance.begin(), irradiance.end(),
-                       [](const glm::vec3& light) { return light != glm::vec3(0.0f); });
-}
-
-/// False if the scene has no light sources; the reader has warned then.
-bool has_sources(const SolveScene& prepared)
-{
-    const std::vector<Lumel>& lumels = prepared.lumels.lumels;
-    return has_lights(prepared.scene) ||
-           std::any_of(lumels.begin(), lumels.end(),
-                       [](const Lumel& lumel) { return lumel.emission != glm::vec3(0.0f); });
-}
-
 /// Bakes everything except light probes. output: created once the scene is read.
 BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
                        BakeOptions options, std::optional<OutputFolder>& output,
@@ -94,11 +79,8 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     const bool stopped = stages.stopped();
     // Without light there is no error.
     const bool lit = is_lit(solution->irradiance);
-    if (!lit && has_sources(setting.prepared))
-        stages.warn("no light reaches any surface: the lightmap is black");
     stages.begin("finishing");
-    for (const std::string& sentence : advice(setting.prepared, options, *solution->solver))
-        stages.tell(sentence);
+    tell_advice(setting.prepared, options, *solution, stages);
     const Results results{.shots = solved.shots,
                           .iterations = solved.iterations,
                           .error = lit ? solved.error : -1.0,

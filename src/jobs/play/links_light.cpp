@@ -22,7 +22,7 @@ std::vector<glm::mat4> places_of(const Scene& scene)
 std::unique_ptr<SolveScene> laid_out(const Scene& start, const Animation& animation,
                                      AtlasOptions atlas)
 {
-    atlas.sides = Sides::brighter;  // frames show one side of a texel
+    atlas.sides = Sides::brighter;  // frames show one side per texel
     return lay_out_movers(at_its_brightest(start, animation), atlas, movers_of(animation, start));
 }
 

@@ -195,7 +195,7 @@ void check_head(const std::string& path, const Bytes& bytes)
     if (bytes.size() >= sizeof head)
         std::memcpy(&head, bytes.data(), sizeof head);
     if (bytes.size() < sizeof head || head.magic != kMagic)
-        throw Error(ErrorKind::input, path, "is not a matrix file of lumel bake --solver matrix");
+        throw Error(ErrorKind::input, path, "is not a .lumelmat file");
     check_format(path, head.version, kVersion);
     if (head.bytes != bytes.size() - sizeof head ||
         head.fingerprint != fingerprint_of(bytes.data() + sizeof head, bytes.size() - sizeof head))

@@ -11,6 +11,7 @@
 #include "results/files/baked_materials.h"
 #include "results/files/baked_meshes.h"
 #include "results/files/glb_builder.h"
+#include "results/files/root_node.h"
 #include "scene/gltf/baked_lights.h"
 #include "scene/gltf/extras.h"
 
@@ -82,15 +83,7 @@ void add_camera(Json& gltf, const AddedCamera& camera, const glm::dvec3& origin)
                                  {"zfar", kFarthest * camera.extent}}}});
     glm::dmat4 place(view.transform);
     place[3] += glm::dvec4(origin, 0.0);
-    Json matrix = Json::array();
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            matrix.push_back(place[column][row]);
-    const std::size_t node = gltf["nodes"].size();
-    gltf["nodes"].push_back(
-        {{"name", "preview"}, {"camera", gltf["cameras"].size() - 1}, {"matrix", matrix}});
-    if (const auto scenes = gltf.find("scenes"); scenes != gltf.end() && !scenes->empty())
-        (*scenes)[gltf.value("scene", std::size_t(0))]["nodes"].push_back(node);
+    add_root(gltf, {{"name", "preview"}, {"camera", gltf["cameras"].size() - 1}}, place);
 }
 
 std::size_t add_lightmap(GlbBuilder& builder, const Image& map, float scale,

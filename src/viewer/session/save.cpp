@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -12,6 +13,7 @@
 #include "jobs/bake/bake.h"
 #include "results/files/folder.h"
 #include "results/files/glb_builder.h"
+#include "results/files/root_node.h"
 #include "scene/load/gltf_nodes.h"
 
 namespace lumel {
@@ -39,15 +41,6 @@ bool is_same(const glm::dmat4& a, const glm::dmat4& b)
     return apart <= kSamePlace * most;
 }
 
-/// Adds a root node to the default scene.
-void add_root(Json& gltf, const Json& node)
-{
-    const std::size_t number = gltf["nodes"].size();
-    gltf["nodes"].push_back(node);
-    if (const auto scenes = gltf.find("scenes"); scenes != gltf.end() && !scenes->empty())
-        (*scenes)[gltf.value("scene", std::size_t(0))]["nodes"].push_back(number);
-}
-
 /// Moves a node's mesh to a new node at its current transform; the old node's children stay.
 void place_mesh(Json& gltf, std::size_t number, const glm::dmat4& world)
 {
@@ -58,11 +51,7 @@ void place_mesh(Json& gltf, std::size_t number, const glm::dmat4& world)
             placed[member] = *found;
     node.erase("mesh");
     node.erase("weights");
-    placed["matrix"] = Json::array();
-    for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 4; ++r)
-            placed["matrix"].push_back(world[c][r]);
-    add_root(gltf, placed);
+    add_root(gltf, std::move(placed), world);
 }
 
 void place_things(Json& gltf, const GltfDocument& document, const ViewSession& session)

@@ -21,7 +21,7 @@ constexpr float kAway = 1000.0f;
 std::unique_ptr<SolveScene> laid_out(const Scene& scene, const Animation& animation,
                                      const std::vector<MovableObject>& things, AtlasOptions atlas)
 {
-    atlas.sides = Sides::brighter;  // the window shows one side of a texel
+    atlas.sides = Sides::brighter;  // the window shows one side per texel
     std::vector<std::uint32_t> movers;
     for (const MovableObject& thing : things)
         movers.insert(movers.end(), thing.instances.begin(), thing.instances.end());
