@@ -37,7 +37,7 @@ void grow(const Settings& settings)
         const SolveScene world = prepare(settings, size);
         const World gpu_world(device, world.scene, world.lumels);
         const NearField none{.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)};
-        const auto solver = make_solver({.device = device,
+        const auto solver = make_solver({.device = &device,
                                          .world = &gpu_world,
                                          .lumels = world.lumels,
                                          .near = none,

@@ -81,7 +81,7 @@ void warm_up(const Settings& settings, const gpu::Device& device, const SolveSce
     light_of(few, device, warm, world);
     const NearField none{.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)};
     const auto solver = make_solver(
-        {.device = device, .world = &warm, .lumels = world.lumels, .near = none, .scene = &world},
+        {.device = &device, .world = &warm, .lumels = world.lumels, .near = none, .scene = &world},
         solver_of(settings));
     for (int i = 0; i < kWarmUpSteps; ++i)
         solver->step();
@@ -133,7 +133,7 @@ void race_solver(const Settings& settings, const SolveScene& world, Score& score
         on_device ? light_of(settings, device, *gpu_world, world) : std::vector<glm::vec3>();
     const std::optional<Lumels> lit = shining(world.lumels, direct);
     const std::optional<LobeParticles> particles = particles_for(world, options);
-    const auto solver = make_solver({.device = device,
+    const auto solver = make_solver({.device = &device,
                                      .world = gpu_world ? &*gpu_world : nullptr,
                                      .lumels = lit ? *lit : world.lumels,
                                      .near = near,

@@ -25,7 +25,7 @@ std::vector<glm::vec3> light_of(const SolveScene& prepared, const gpu::Device& d
     options.target_error = kEnd;
     const NearField near = near_field_for(prepared.scene, prepared.rays, prepared.lumels, options);
     const World world(device, prepared.scene, prepared.lumels, &prepared.atlas);
-    const auto solver = make_solver({.device = device,
+    const auto solver = make_solver({.device = &device,
                                      .world = &world,
                                      .lumels = prepared.lumels,
                                      .near = near,

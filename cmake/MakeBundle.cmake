@@ -1,4 +1,4 @@
-# cmake -DBUILD=<build folder> -DNAME=<name> -P MakeBundle.cmake
+# cmake -DBUILD=<build folder> -DNAME=<name> -DOPENED=<libraries opened at run time> -P MakeBundle.cmake
 # Installs the component `bundle` into <build>/<name>, adds the shared libraries it needs and their
 # licences, and packs it as <build>/<name>.tar.gz.
 
@@ -13,11 +13,13 @@ execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --component bundle -
 file(GLOB programs ${stage}/bin/*)
 file(GET_RUNTIME_DEPENDENCIES
     EXECUTABLES ${programs}
+    LIBRARIES ${OPENED}
     RESOLVED_DEPENDENCIES_VAR libraries
     UNRESOLVED_DEPENDENCIES_VAR unresolved
     PRE_EXCLUDE_REGEXES
         "^ld-linux" "^lib(c|m|dl|rt|pthread|resolv|util|anl|nsl|mvec|BrokenLocale)\\.so"
         "^libvulkan\\.so" "^lib(stdc\\+\\+|gcc_s|z)\\.so")
+list(APPEND libraries ${OPENED})
 if(unresolved)
     message(FATAL_ERROR "These libraries are nowhere to be found: ${unresolved}")
 endif()

@@ -109,7 +109,7 @@ std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptio
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
     const std::optional<LobeParticles> particles = particles_for(world, options);
-    const SolverInputs inputs{.device = device,
+    const SolverInputs inputs{.device = &device,
                               .world = &resident,
                               .lumels = world.lumels,
                               .near = near,

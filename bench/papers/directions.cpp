@@ -86,7 +86,7 @@ LinkSet gather(const gpu::Device& device, const SolveScene& world, const SolverO
 {
     const World resident(device, world.scene, world.lumels, &world.atlas);
     const NearField none = no_near_field(world.lumels);
-    const auto solver = make_solver({device, &resident, world.lumels, none}, options);
+    const auto solver = make_solver({&device, &resident, world.lumels, none}, options);
     LinkSet gathered;
     gathered.watch.start();
     solve(*solver, options);

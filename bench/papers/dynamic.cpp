@@ -123,7 +123,7 @@ MoveOutcome gathered(const gpu::Device& device, const LiveScene& laid_out, const
     scene.instances[stage.box].transform = stage.places.back();
     const SolverOptions options{.method = stage.gather};
     const World world(device, scene, laid_out.lumels(), &laid_out.atlas());
-    const auto solver = make_solver({device, &world, laid_out.lumels(), {}}, options);
+    const auto solver = make_solver({&device, &world, laid_out.lumels(), {}}, options);
     MoveOutcome outcome;
     Stopwatch watch;
     watch.start();

@@ -121,7 +121,7 @@ void time_iterations(const IterationSettings& settings, Report& report)
             const Scene scene = drawn_with(world.scene, vertices);
             const World resident(device, scene, world.lumels);
             const NearField none = no_near_field(world.lumels);
-            const auto solver = make_solver({device, &resident, world.lumels, none}, options);
+            const auto solver = make_solver({&device, &resident, world.lumels, none}, options);
             maps.back().push_back(cost_of_iteration(device, *solver, settings.iterations));
             add_row(report, size, world.lumels.lumels.size(), scene, maps.back().back());
         }

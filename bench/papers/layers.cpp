@@ -245,7 +245,7 @@ void add_red(Report& report, const LayersSettings& settings, const gpu::Device& 
         options.slabs = variant.slabs;
         const NearField none = no_near_field(world.lumels);
         const auto solver =
-            make_solver({device, &resident, world.lumels, none}, papers_iteration(options));
+            make_solver({&device, &resident, world.lumels, none}, papers_iteration(options));
         solver->step();
         solver->irradiance();  // the driver compiles shaders when they first run
         Stopwatch watch;

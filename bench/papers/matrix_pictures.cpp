@@ -81,7 +81,7 @@ Solved solve_by_matrix(const gpu::Device& device, const Settings& settings, cons
     watch.start();
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
-    const auto solver = make_solver({.device = device,
+    const auto solver = make_solver({.device = &device,
                                      .world = &resident,
                                      .lumels = world.lumels,
                                      .near = near,

@@ -143,7 +143,7 @@ void time_selection(const SelectionSettings& settings, Report& report)
         const SolveScene world = prepare(settings.shared, size);
         const World resident(device, world.scene, world.lumels);
         const NearField none = no_near_field(world.lumels);
-        const auto solver = make_solver({device, &resident, world.lumels, none}, options);
+        const auto solver = make_solver({&device, &resident, world.lumels, none}, options);
         const IterationCost iteration = cost_of_iteration(device, *solver, settings.draws);
         const Power power = power_after(world.lumels, solver->irradiance());
         const DrawCost host = by_read_back(device, power, numbers);

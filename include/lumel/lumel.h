@@ -1,7 +1,7 @@
 // Lumel: radiosity lightmaps, baked in memory, kept up to date while objects move, or relit.
 //
 // This header is the whole interface; lumel/vulkan.h adds support for the host's own Vulkan device.
-// Start at bake(), LiveScene, LiveLinks or Relight.
+// Start at bake(), LiveScene, LiveLinks or Relight. lumel/lumel_c.h is for hosts in C.
 //
 // Units    metres; right-handed, +y up; angles in radians; light and colours in linear Rec. 709:
 //          irradiance in lx, luminance in cd/m², intensity of lamps in cd.
@@ -14,7 +14,7 @@
 //          at the same time in one process.
 // Errors   Functions throw Error on failure, std::bad_alloc if out of memory. After Error{input}
 //          everything is as before the call; after Error{device} destroy whatever uses the Device.
-//          The library prints nothing.
+//          The library prints nothing; on_warning() passes on what the user should know.
 // Chance   Equal arguments, seed and device give equal bytes.
 #ifndef LUMEL_LUMEL_H
 #define LUMEL_LUMEL_H
@@ -62,7 +62,7 @@ struct SceneImpl;
 struct LiveImpl;
 struct LinksImpl;
 struct RelightImpl;
-struct RelightableBake;
+struct BakedSolution;
 struct HostDevice;  // lumel/vulkan.h
 
 inline constexpr Mat4 kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -89,6 +89,15 @@ public:
 private:
     ErrorKind kind_;
 };
+
+/// Called with a message for the user, in one sentence.
+using WarningFunction = std::function<void(const std::string&)>;
+
+/// Sets the function that receives all messages of this process: what files lack, what was
+/// repaired, what a bake should have; each once. They are in Scene::warnings(), Baked::notes and
+/// the like as well. It runs on the thread of the call that it concerns, before that returns, and
+/// must not throw. Empty: none. Thread-safe.
+LUMEL_API void on_warning(WarningFunction function);
 
 // ---------------------------------------------------------------------------------------- device
 
@@ -353,6 +362,13 @@ enum class Parts {
     indirect,  ///< reflected at least once
 };
 
+/// Incoming light over directions, for normal maps.
+enum class Directional {
+    none,
+    sh1,  ///< spherical harmonics of bands 0 and 1: 4 coefficients
+    sh2,  ///< also band 2: 9 coefficients
+};
+
 struct BakeSettings {
     AtlasSettings atlas;
     /// An id that `lumel methods` lists: "links", "stochastic", "glossy", "directions",
@@ -361,6 +377,7 @@ struct BakeSettings {
     /// Options of the method, by their names on the command line: {{"patches", "512"}}.
     std::map<std::string, std::string> options;
     Parts parts = Parts::all;
+    Directional directional = Directional::none;  ///< requires a Device and Parts::all
     std::uint32_t seed = 1;
     // Targets and limits; the first that is reached ends the bake, targets once all are. If none is
     // given, those of `lumel bake`: with links 0.005 of visible noise and an eye_error of 0.05, but
@@ -376,9 +393,13 @@ struct BakeSettings {
     std::uint64_t max_memory = 0;  ///< limit of CPU and GPU memory, each [bytes]; 0: all available
 };
 
-/// A finished bake. Method "matrix" with Parts::all sets `relightable`, for Relight.
+/// A finished bake.
 struct Baked {
     Map map;
+    /// [4 or 9] maps of coefficient l² + l + m of the incoming radiance [cd/m²], in real harmonics
+    /// orthonormal over the sphere, world axes. Irradiance for a normal n: H(n) = Σ A_l c_lm
+    /// Y_lm(n) with A = π, 2π/3, π/4.
+    std::vector<Map> directional;
     std::vector<Surface> surfaces;  ///< by instance, then primitive, then side
     std::vector<Page> pages;        ///< pages of the map, at least one
     float texels_per_metre = 0.0f;
@@ -390,8 +411,12 @@ struct Baked {
     std::uint64_t shots = 0;
     double seconds = 0.0;
     bool interrupted = false;        ///< ended by progress
+    bool relightable = false;        ///< Relight can use it: method "matrix", Parts::all
     std::vector<std::string> notes;  ///< messages for the user
-    std::shared_ptr<const RelightableBake> relightable;
+    /// For Relight, probes(), write_scene() and write_baked_scene(): the scene with its light,
+    /// about 200 bytes per lumel and the scene's textures and triangles. Reset it to free the
+    /// memory.
+    std::shared_ptr<const BakedSolution> solution;
 };
 
 /// Builds the atlas and solves for the light; returns the same map as `lumel bake` writes. Throws
@@ -400,6 +425,42 @@ struct Baked {
 /// before the solve.
 LUMEL_API Baked bake(const Device& device, const Scene& scene, const BakeSettings& settings = {},
                      const ProgressFunction& progress = {});
+/// The same on the CPU, without Vulkan. Throws Error{input} unless the method is "links", and for
+/// directional maps.
+LUMEL_API Baked bake(const Scene& scene, const BakeSettings& settings = {},
+                     const ProgressFunction& progress = {});
+
+/// Incoming light at a point in the air, as spherical harmonics.
+struct Probe {
+    std::array<Vec3, 9> coefficients{};  ///< as in Baked::directional [cd/m²]
+    double noise = 0.0;   ///< standard error of the noisiest coefficient's luminance [cd/m²]
+    bool inside = false;  ///< inside an object: no light
+};
+
+/// Light at `places` [m] in a bake of all light; runs on the CPU. samples: rays per probe, more
+/// where noise is above 0.5 % of band 0. Throws Error{input} if the bake has no solution, or of one
+/// part of the light only, or a place is not finite.
+LUMEL_API std::vector<Probe> probes(const Baked& baked, const std::vector<Vec3>& places,
+                                    std::uint32_t samples = 4096);
+
+/// The lightmap in a glTF file.
+enum class LightmapFormat {
+    ktx2,    ///< half floats in KTX2, and a PNG for loaders that do not read it
+    rgb9e5,  ///< three mantissas and a shared exponent in KTX2, and the PNG
+    png,     ///< the PNG alone: 8 bits, linear, bright texels clipped
+    none,    ///< no lightmap inside, only its coordinates
+};
+
+/// Writes the scene with Baked::map, as `lumel bake` writes scene.glb: all that the scene's file
+/// has, with the lightmap bound by MOZ_lightmap; or a file of the scene made in memory, with node i
+/// for instance i. Lamps are baked and therefore hidden, except in a bake of indirect light. A
+/// scene without camera gets one. Throws Error{input} if the bake has no solution, its map has
+/// another size, or the scene's file has changed; Error{output}.
+LUMEL_API void write_scene(const std::string& path, const Baked& baked,
+                           LightmapFormat format = LightmapFormat::ktx2);
+/// Writes the scene as `lumel bake` writes scene-baked.glb, which any viewer shows lit: the light
+/// of the bake in 8-bit textures of at most `size` texels a side. Throws as write_scene().
+LUMEL_API void write_baked_scene(const std::string& path, const Baked& baked, int size = 2048);
 
 // ------------------------------------------------------------------------------------------ live
 
@@ -550,7 +611,7 @@ private:
 /// factors f_s are initially 1.
 class LUMEL_API Relight {
 public:
-    /// Throws Error{input} if the bake is not relightable; Error{device}.
+    /// Throws Error{input} if the bake is not relightable or has no solution; Error{device}.
     Relight(const Device& device, const Baked& baked);
     /// Reads scene.lumelmat, written by save() or `lumel bake --solver matrix`. Its maps have
     /// filled gutters; seams and buried texels are not corrected. Throws Error{input} if the file

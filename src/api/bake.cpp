@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "api/device.h"
-#include "api/fields.h"
 #include "api/scene.h"
 #include "api/translate.h"
 #include "api/values.h"
-#include "atlas/finish/finish.h"
+#include "api/warnings.h"
 #include "base/core/log.h"
 #include "jobs/bake/advice.h"
+#include "jobs/bake/bake.h"
+#include "jobs/bake/directional_layers.h"
 #include "jobs/solve/lighting.h"
 #include "jobs/solve/memory_plan.h"
 #include "jobs/solve/sources.h"
@@ -69,10 +70,24 @@ SolverOptions limits_of(const BakeSettings& settings)
     return solver;
 }
 
+lumel::Directional directional_of(Directional directional)
+{
+    switch (directional) {
+    case Directional::sh1:
+        return lumel::Directional::sh1;
+    case Directional::sh2:
+        return lumel::Directional::sh2;
+    default:
+        return lumel::Directional::none;
+    }
+}
+
 BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
 {
     BakeOptions options;
     options.parts = parts_of(settings.parts);
+    options.directional = directional_of(settings.directional);
+    check_parts(options);
     options.solver = limits_of(settings);
     options.max_memory = settings.max_memory;
     options.preview_width = 0;
@@ -92,6 +107,15 @@ void check_materials(const MethodInfo& method, const lumel::Scene& scene)
                        std::string(method.id) + " needs a scene loaded with Materials::glossy");
 }
 
+void check_device(const BakeOptions& options)
+{
+    if (options.directional != lumel::Directional::none)
+        refuse_setting("directional", "needs a Device");
+    if (needs_world(options))
+        refuse_setting("method", std::string(lumel::method_of(options.solver.method).id) +
+                                     " needs a Device; without one only \"links\" runs");
+}
+
 lumel::ProgressFunction follower(const ProgressFunction& progress)
 {
     if (!progress)
@@ -105,41 +129,72 @@ lumel::ProgressFunction follower(const ProgressFunction& progress)
     };
 }
 
-Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, BakeOptions options,
+/// The maps of a bake; adds its directional maps.
+Map finished_map(const gpu::Device* device, const BakedSolution& baked, const BakeOptions& options,
+                 std::uint64_t shots, Stages& stages, std::vector<Map>& layers)
+{
+    const SolveScene& prepared = baked.setting.prepared;
+    DirectionalLight light;
+    if (options.directional != lumel::Directional::none) {
+        stages.begin("directional light");
+        light = gather_directional(*device, *baked.setting.world, prepared.scene, prepared.rays,
+                                   prepared.lumels, baked.setting.near, baked.irradiance,
+                                   directional_options(options, shots),
+                                   [&](double fraction) { return stages.progress(fraction); });
+    }
+    stages.begin("finishing");
+    DirectionalMaps maps = finish_directional(prepared, baked.irradiance, light.coefficients);
+    for (Layer& layer : maps.layers)
+        layers.push_back(map_of(std::move(layer.image)));
+    return map_of(std::move(maps.light));
+}
+
+/// Frees what only the solver needed.
+void reduce(Setting& setting)
+{
+    setting.world.reset();
+    setting.particles.reset();
+    setting.near = {};
+}
+
+/// device: null if there is none.
+Baked bake_scene(const gpu::Device* device, const SceneImpl& scene, BakeOptions options,
                  const lumel::ProgressFunction& progress)
 {
     const LogCapture log;
     Stages stages(progress);
-    const MemoryLimits limits = memory_limits(options, device.info());
-    check_memory(scene, options, limits);
-    const Setting setting(scene, device, options, stages);
-    options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
-    std::unique_ptr<Solution> solution = keeps_sources_apart(options)
-                                             ? solve_sources(device, setting, options, stages)
-                                             : solve_light(device, setting, options, stages);
+    const MemoryLimits limits = memory_limits(options, device);
+    check_memory(scene.scene, options, limits);
+    const auto kept = std::make_shared<BakedSolution>(scene, device, options, stages);
+    const SolveScene& prepared = kept->setting.prepared;
+    options.solver.max_bytes = bytes_for_links(prepared, options, limits);
+    std::unique_ptr<Solution> solution =
+        keeps_sources_apart(options) ? solve_sources(*device, kept->setting, options, stages)
+                                     : solve_light(device, kept->setting, options, stages);
     const SolverState solved = solution->solver->state();
-    const SolveScene& prepared = setting.prepared;
-    Baked baked;
-    baked.interrupted = stages.stopped();
-    stages.begin("finishing");
     tell_advice(prepared, options, *solution, stages);
-    baked.map =
-        map_of(finish_map(prepared.scene, prepared.atlas, prepared.lumels, solution->irradiance));
+    kept->irradiance = std::move(solution->irradiance);
+    kept->light = std::move(solution->relightable);
+    Baked baked;
+    baked.map = finished_map(device, *kept, options, solved.shots, stages, baked.directional);
+    baked.interrupted = stages.stopped();
     baked.surfaces = surfaces_of(prepared.scene, prepared.atlas);
     baked.pages = pages_of(prepared.atlas);
     baked.texels_per_metre = prepared.atlas.texels_per_metre;
     // Without light there is no error.
-    if (is_lit(solution->irradiance)) {
+    if (is_lit(kept->irradiance)) {
         baked.error = solved.error;
         baked.eye_error = solved.eye_error;
         baked.visible_noise = solved.visible_noise.worst_chart;
     }
     baked.shots = solved.shots;
-    if (solution->relightable)
-        baked.relightable = std::make_shared<RelightableBake>(RelightableBake{
-            std::move(*solution->relightable), prepared.scene, prepared.atlas, prepared.lumels});
-    device.check_validation();
-    baked.notes = in_fields(log.messages());
+    baked.relightable = kept->light.has_value();
+    solution.reset();
+    reduce(kept->setting);
+    baked.solution = kept;
+    if (device)
+        device->check_validation();
+    baked.notes = told(log.messages(), scene.scene.warnings);
     baked.seconds = stages.seconds();
     return baked;
 }
@@ -152,7 +207,16 @@ Baked bake(const Device& device, const Scene& scene, const BakeSettings& setting
     return translated([&] {
         const BakeOptions options = checked_options(settings, bool(progress));
         check_materials(lumel::method_of(options.solver.method), scene.impl().scene);
-        return bake_scene(device.impl().device, scene.impl().scene, options, follower(progress));
+        return bake_scene(&device.impl().device, scene.impl(), options, follower(progress));
+    });
+}
+
+Baked bake(const Scene& scene, const BakeSettings& settings, const ProgressFunction& progress)
+{
+    return translated([&] {
+        const BakeOptions options = checked_options(settings, bool(progress));
+        check_device(options);
+        return bake_scene(nullptr, scene.impl(), options, follower(progress));
     });
 }
 

@@ -11,10 +11,12 @@ namespace {
 
 /// By names of options, without dashes.
 const std::map<std::string, std::string, std::less<>> kFields = {
+    {"baked-size", "size"},
     {"coarse-afar", "AtlasSettings::coarse_afar"},
     {"dark-error", "BakeSettings::dark_error"},
     {"density", "AtlasSettings::densities"},
     {"device", "Device::Device"},
+    {"directional", "BakeSettings::directional"},
     {"error", "BakeSettings::error"},
     {"gutter", "AtlasSettings::gutter"},
     {"max-memory", "BakeSettings::max_memory"},

@@ -1,8 +1,8 @@
 #include "api/device.h"
-#include "api/fields.h"
 #include "api/scene.h"
 #include "api/translate.h"
 #include "api/values.h"
+#include "api/warnings.h"
 #include "atlas/finish/finish.h"
 #include "lumel/vulkan.h"
 #include "methods/redistribution/live_scene.h"
@@ -55,7 +55,7 @@ struct LiveImpl {
         : device(&on),
           live(on, scene, options),
           surfaces(surfaces_of(live.scene(), live.atlas())),
-          notes(in_fields(live.atlas().notes))
+          notes(told(live.atlas().notes))
     {
         for (const lumel::Instance& instance : scene.instances)
             given.push_back(instance.transform);

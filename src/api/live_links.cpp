@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "api/fields.h"
 #include "api/scene.h"
 #include "api/translate.h"
 #include "api/values.h"
+#include "api/warnings.h"
 #include "atlas/finish/finish.h"
 #include "atlas/lumels/sides.h"
 #include "base/core/clock.h"
@@ -85,7 +85,7 @@ struct LinksImpl {
           live(lay_out_movers(scene, checked_options(settings.atlas), movers),
                links_options(settings)),
           surfaces(surfaces_of(live.scene(), live.atlas())),
-          notes(in_fields(live.atlas().notes))
+          notes(told(live.atlas().notes))
     {
         for (const lumel::Instance& instance : scene.instances)
             given.push_back(instance.transform);

@@ -13,10 +13,11 @@ namespace {
 
 const lumel::Relightable& light_of(const Baked& baked)
 {
-    if (!baked.relightable)
+    const BakedSolution* const solution = baked.solution.get();
+    if (!solution || !solution->light)
         throw lumel::Error(lumel::ErrorKind::input, "Baked",
                            "is not relightable; bake all light by method \"matrix\" to its end");
-    return baked.relightable->light;
+    return *solution->light;
 }
 
 /// Map of lumels without charts: front sides hide back sides.
@@ -42,26 +43,27 @@ Map map_of_places(const lumel::Relightable& light, const std::vector<glm::vec3>&
 struct RelightImpl {
     const gpu::Device* device;
     RelightSession session;
-    std::shared_ptr<const RelightableBake> baked;  ///< null if read from a file
-    std::unique_ptr<World> world;                  ///< set by the first move_light()
+    std::shared_ptr<const BakedSolution> baked;  ///< null if read from a file
+    std::unique_ptr<World> world;                ///< set by the first move_light()
 
     /// Uploads the baked scene.
     void load_world()
     {
         if (world || !baked)
             return;
-        world = std::make_unique<World>(*device, baked->scene, baked->lumels, &baked->atlas);
-        std::vector<std::uint32_t> number(baked->lumels.lumels.size());
+        const SolveScene& from = baked->setting.prepared;
+        world = std::make_unique<World>(*device, from.scene, from.lumels, &from.atlas);
+        std::vector<std::uint32_t> number(from.lumels.lumels.size());
         std::iota(number.begin(), number.end(), 0u);
-        session.set_world({*world, baked->lumels, std::move(number), {}});
+        session.set_world({*world, from.lumels, std::move(number), {}});
     }
 };
 
 Relight::Relight(const Device& device, const Baked& baked)
     : impl_(translated([&] {
           const gpu::Device& on = device.impl().device;
-          return std::unique_ptr<RelightImpl>(new RelightImpl{
-              &on, RelightSession(on, light_of(baked)), baked.relightable, nullptr});
+          return std::unique_ptr<RelightImpl>(
+              new RelightImpl{&on, RelightSession(on, light_of(baked)), baked.solution, nullptr});
       }))
 {
 }
@@ -107,8 +109,10 @@ Map Relight::map()
     return translated([&] {
         const std::vector<glm::vec3> irradiance = impl_->session.irradiance();
         impl_->device->check_validation();
-        if (const RelightableBake* baked = impl_->baked.get())
-            return map_of(finish_map(baked->scene, baked->atlas, baked->lumels, irradiance));
+        if (impl_->baked) {
+            const SolveScene& from = impl_->baked->setting.prepared;
+            return map_of(finish_map(from.scene, from.atlas, from.lumels, irradiance));
+        }
         return map_of_places(impl_->session.light(), irradiance);
     });
 }

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "api/fields.h"
 #include "api/translate.h"
 #include "api/values.h"
+#include "api/warnings.h"
 #include "scene/load/albedo_cap.h"
 #include "scene/sky/light_options.h"
 
@@ -46,7 +46,7 @@ MaterialModel model_of(Materials materials)
 lumel::Scene finished(lumel::Scene scene)
 {
     cap_albedo(scene, scene.max_albedo);
-    scene.warnings = in_fields(scene.warnings);
+    scene.warnings = told(scene.warnings);
     return scene;
 }
 
@@ -56,13 +56,14 @@ Scene Scene::load(const std::string& path, Materials materials)
 {
     return translated([&] {
         return Scene(std::make_unique<SceneImpl>(
-            SceneImpl{finished(lumel::read_gltf(path, model_of(materials)))}));
+            SceneImpl{finished(lumel::read_gltf(path, model_of(materials))), true}));
     });
 }
 
 Scene::Scene(const SceneContent& content)
-    : impl_(translated(
-          [&] { return std::make_unique<SceneImpl>(SceneImpl{finished(scene_of(content))}); }))
+    : impl_(translated([&] {
+          return std::make_unique<SceneImpl>(SceneImpl{finished(scene_of(content)), false});
+      }))
 {
 }
 
@@ -77,7 +78,12 @@ void Scene::add_daylight(const Daylight& daylight)
     translated([&] {
         lumel::Scene changed = impl_->scene;
         add_lights(changed, options_of(daylight));
-        changed.warnings = in_fields(changed.warnings);
+        const std::vector<std::string> added(changed.warnings.begin() +
+                                                 std::ptrdiff_t(impl_->scene.warnings.size()),
+                                             changed.warnings.end());
+        changed.warnings = impl_->scene.warnings;
+        for (std::string& warning : told(added))
+            changed.warnings.push_back(std::move(warning));
         impl_->scene = std::move(changed);
     });
 }

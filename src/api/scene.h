@@ -7,6 +7,7 @@ namespace lumel::v0 {
 
 struct SceneImpl {
     lumel::Scene scene;
+    bool is_of_file;  ///< read from a file
 };
 
 /// Checks and converts. Throws lumel::Error{input} with the location of the fault.

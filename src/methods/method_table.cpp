@@ -32,13 +32,13 @@ std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits& limits
 std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits&,
                                const StochasticOptions& own)
 {
-    return std::make_unique<StochasticRadiosity>(in.device, *in.world, in.lumels, in.near, own,
+    return std::make_unique<StochasticRadiosity>(*in.device, *in.world, in.lumels, in.near, own,
                                                  in.known);
 }
 
 std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits&, const GlossyOptions& own)
 {
-    return std::make_unique<GlossyIllumination>(in.device, *in.world, in.lumels, in.near, own,
+    return std::make_unique<GlossyIllumination>(*in.device, *in.world, in.lumels, in.near, own,
                                                 in.known, in.particles, in.first_emission);
 }
 
@@ -46,28 +46,28 @@ std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits& limits
                                const DirectionsOptions& own)
 {
     if (finds_emitted(own, in.lumels, in.known))
-        return std::make_unique<DirectionsRadiosity>(in.device, *in.world, *in.scene, in.lumels,
+        return std::make_unique<DirectionsRadiosity>(*in.device, *in.world, *in.scene, in.lumels,
                                                      own, limits.target_error, in.known, in.parts);
-    return std::make_unique<GlobalDirections>(in.device, *in.world, in.lumels, own, in.known);
+    return std::make_unique<GlobalDirections>(*in.device, *in.world, in.lumels, own, in.known);
 }
 
 std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits&,
                                const ProgressiveOptions& own)
 {
-    return std::make_unique<ProgressiveRadiosity>(in.device, *in.world, in.lumels, in.near, own);
+    return std::make_unique<ProgressiveRadiosity>(*in.device, *in.world, in.lumels, in.near, own);
 }
 
 std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits& limits,
                                const GatherOptions& own)
 {
-    return std::make_unique<GatherRadiosity>(in.device, *in.world, in.lumels, own,
+    return std::make_unique<GatherRadiosity>(*in.device, *in.world, in.lumels, own,
                                              limits.target_error);
 }
 
 std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits& limits,
                                const MatrixOptions& own)
 {
-    return std::make_unique<MatrixRadiosity>(in.device, *in.world, *in.scene, in.lumels, in.near,
+    return std::make_unique<MatrixRadiosity>(*in.device, *in.world, *in.scene, in.lumels, in.near,
                                              own, limits.target_error, in.known);
 }
 

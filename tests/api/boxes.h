@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "../support/source_folder.h"
+#include "base/core/files.h"
 #include "lumel/lumel.h"
 
 namespace lumel::v0::test {
@@ -55,6 +56,11 @@ void expect_error(ErrorKind kind, std::initializer_list<const char*> words, cons
             EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
                 << error.what() << " does not say " << word;
     }
+}
+
+inline lumel::Bytes bytes_of(const std::string& path)
+{
+    return lumel::read_file(path, path);
 }
 
 inline std::string scene_path(const std::string& name)

@@ -38,7 +38,7 @@ Lit light_up(const Scene& scene, const RayScene& rays, const Lumels& lumels,
 {
     const support::Resident resident(scene, rays, lumels, options);
     const auto& [near, device, world] = resident;
-    const auto solver = make_solver({device, &world, lumels, near}, options);
+    const auto solver = make_solver({&device, &world, lumels, near}, options);
     EXPECT_TRUE(solve(*solver, options));
     Lit lit;
     lit.irradiance = solver->irradiance();

@@ -63,7 +63,7 @@ TEST_P(Glass, TintsTheFloorBelowIt)
     const gpu::Device device;
     const World world(device, room.scene, room.lumels, &room.atlas);
     const auto solver = make_solver(
-        {.device = device, .world = &world, .lumels = room.lumels, .near = near, .scene = &room},
+        {.device = &device, .world = &world, .lumels = room.lumels, .near = near, .scene = &room},
         GetParam());
     EXPECT_TRUE(solve(*solver, GetParam()));
     const glm::dvec3 found = on_floor(room.lumels, solver->irradiance());

@@ -132,8 +132,8 @@ TEST(IndirectLight, OfLampsSkyAndAShiningSurfaceIsWhatPathsFind)
     options.atlas.size = 32;
     options.parts = Parts::indirect;
     options.solver = {.method = GlossyOptions{}, .max_shots = 8192, .target_error = 0.0};
-    const Setting setting(std::move(scene), device, options, stages);
-    const std::vector<glm::vec3> found = solve_light(device, setting, options, stages)->irradiance;
+    const Setting setting(std::move(scene), &device, options, stages);
+    const std::vector<glm::vec3> found = solve_light(&device, setting, options, stages)->irradiance;
     const SolveScene& world = setting.prepared;
     const auto truth = [&](std::uint32_t seed) {
         return reference_irradiance(

@@ -34,7 +34,7 @@ std::vector<glm::vec3> gathered(const SolveScene& world, Layers layers, int look
                                                             .map_side = 128},
                                 .max_shots = 1024,
                                 .target_error = 0.0};
-    const auto solver = make_solver({device, &resident, world.lumels, {}}, options);
+    const auto solver = make_solver({&device, &resident, world.lumels, {}}, options);
     EXPECT_TRUE(solve(*solver, options));
     std::vector<glm::vec3> irradiance = solver->irradiance();
     EXPECT_EQ(device.validation_messages(), "");

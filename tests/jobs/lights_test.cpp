@@ -69,7 +69,7 @@ struct City {
     support::Solved solve(const SolverOptions& options) const
     {
         const NearField near = near_field_for(world.scene, world.rays, lit, options);
-        const auto solver = make_solver({.device = device,
+        const auto solver = make_solver({.device = &device,
                                          .world = &resident,
                                          .lumels = lit,
                                          .near = near,
@@ -134,7 +134,7 @@ TEST(GlobalDirections, ReturnDirectAndReflectedLightApart)
     const SolverOptions options{
         .method = DirectionsOptions{}, .max_shots = 256, .target_error = 0.001};
     const auto sum_of = [&](Parts parts) {
-        const auto solver = make_solver({.device = device,
+        const auto solver = make_solver({.device = &device,
                                          .world = &resident,
                                          .lumels = world.lumels,
                                          .near = {},

@@ -164,7 +164,7 @@ TEST(Links, GoOnFromTheStateAfterAnyStepToTheSameLight)
     const SolverOptions options = links(0.01);  // in two rounds
     const support::Resident resident(world.scene, world.rays, world.lumels, options, &world.atlas);
     const auto make = [&] {
-        return make_solver({.device = resident.device,
+        return make_solver({.device = &resident.device,
                             .world = &resident.world,
                             .lumels = world.lumels,
                             .near = resident.near,

@@ -25,7 +25,7 @@ constexpr int kSize = 32;  // of the atlas [texels]
 struct Lit {
     explicit Lit(const std::vector<PunctualLight>& lamps = {lamp()},
                  MatrixForm form = MatrixForm::tiles)
-        : setting(scene(lamps), device, options(form), stages),
+        : setting(scene(lamps), &device, options(form), stages),
           solution(solve_sources(device, setting, options(form), stages))
     {
     }

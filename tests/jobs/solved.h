@@ -61,7 +61,7 @@ inline Solved solve_scene(const SolveScene& scene, const SolverOptions& options)
     const Resident resident(scene.scene, scene.rays, scene.lumels, options, &scene.atlas);
     const auto& [near, device, world] = resident;
     const auto solver = make_solver(
-        {.device = device, .world = &world, .lumels = scene.lumels, .near = near, .scene = &scene},
+        {.device = &device, .world = &world, .lumels = scene.lumels, .near = near, .scene = &scene},
         options);
     EXPECT_TRUE(solve(*solver, options));
     Solved solved{solver->irradiance(), solver->state()};

@@ -31,12 +31,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
 {
     options.atlas = atlas_that_fits(options);
     const MethodInfo& method = method_of(options.solver.method);
-    if (options.probe_spacing > 0.0 && options.parts != Parts::all)
-        throw Error(ErrorKind::input, "--probes with --only",
-                    "is not possible: light probes hold all light, direct and indirect");
-    if (options.directional != Directional::none && options.parts != Parts::all)
-        throw Error(ErrorKind::input, "--directional with --only",
-                    "is not possible: directional layers hold all light, direct and indirect");
+    check_parts(options);
     check_keep_links(options);
     check_resume(options);
     Stages stages(progress);
@@ -49,16 +44,16 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
         dump.emplace(options.dump, "dump");
     const gpu::Device device(options.device);
 
-    const MemoryLimits limits = memory_limits(options, device.info());
+    const MemoryLimits limits = memory_limits(options, &device);
     check_memory(scene, options, limits);
-    const Setting setting(std::move(scene), device, options, stages);
+    const Setting setting(std::move(scene), &device, options, stages);
     if (options.probe_spacing > 0.0)
         check_probe_spacing(options.probe_spacing, setting.prepared);
     options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =
         keeps_sources_apart(options) ? solve_sources(device, setting, options, stages)
-                                     : solve_light(device, setting, options, stages, &checkpoint);
+                                     : solve_light(&device, setting, options, stages, &checkpoint);
     const SolverState solved = solution->solver->state();
     SolveRun& run = solution->run;
     if (dump) {
@@ -108,6 +103,18 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
 }
 
 }  // namespace
+
+void check_parts(const BakeOptions& options)
+{
+    if (options.parts == Parts::all)
+        return;
+    if (options.probe_spacing > 0.0)
+        throw Error(ErrorKind::input, "--probes with --only",
+                    "is not possible: light probes hold all light, direct and indirect");
+    if (options.directional != Directional::none)
+        throw Error(ErrorKind::input, "--directional with --only",
+                    "is not possible: directional layers hold all light, direct and indirect");
+}
 
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress)

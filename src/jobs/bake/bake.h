@@ -12,6 +12,9 @@ namespace lumel {
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress = {});
 
+/// Throws Error{input} if the options ask for results that need all light, but for a part of it.
+void check_parts(const BakeOptions& options);
+
 /// lumel info: contents of the scene and cost of a bake, as text or JSON.
 std::string describe(const std::string& scene_path, const BakeOptions& options, bool json);
 

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "atlas/finish/fine_radiance.h"
 #include "atlas/finish/finish.h"
 #include "base/core/error.h"
 #include "base/core/log.h"
 #include "base/images/image_files.h"
 #include "base/json/json_file.h"
 #include "jobs/bake/directional_layers.h"
+#include "jobs/bake/lit_scenes.h"
 #include "jobs/bake/reference.h"
 #include "jobs/bake/report.h"
 #include "jobs/edit/solution_file.h"
@@ -26,19 +26,6 @@ namespace lumel {
 namespace {
 
 constexpr float kLargestHalf = 65504.0f;
-
-/// Reflected plus emitted radiance L = (ρ H + E) / π of every lumel [cd/m²].
-std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
-{
-    std::vector<glm::vec3> radiance;
-    radiance.reserve(irradiance.size());
-    for (std::size_t i = 0; i < irradiance.size(); ++i) {
-        const Lumel& lumel = lumels.lumels[i];
-        radiance.push_back((lumel.albedo * irradiance[i] + lumel.emission) *
-                           std::numbers::inv_pi_v<float>);
-    }
-    return radiance;
-}
 
 /// Warns of values that half precision cannot hold.
 void warn_of_clipping(const Image& map, const std::string& name, Stages& stages)
@@ -107,12 +94,6 @@ void outdate_other_pages(OutputFolder& folder, const Pages& pages)
 
 namespace {
 
-/// Exposure of light without a preview [m²/cd].
-float exposure_of(const Image& radiance)
-{
-    return choose_exposure(radiance).value_or(1.0f);
-}
-
 struct DrawnPreview {
     Image picture;   ///< tone-mapped
     float exposure;  ///< [m²/cd]
@@ -134,28 +115,6 @@ std::optional<DrawnPreview> draw_preview(const gpu::Device& device, const SolveS
         log_warning(std::string("no ") + kPreview + ": " + error.what());
         return std::nullopt;
     }
-}
-
-/// The camera of preview.png for scene.glb, whose input has none.
-std::optional<AddedCamera> camera_for(const SolveScene& prepared, const std::optional<View>& view)
-{
-    if (!view || !prepared.scene.cameras.empty())
-        return std::nullopt;
-    return AddedCamera{.view = *view, .extent = prepared.extent()};
-}
-
-/// The texture of scene-baked.glb [cd/m²]: as dense as the scene's own, within the limit.
-Image baked_texture(const BakeOptions& options, const SolveScene& prepared, const Image& map,
-                    const Image& radiance, Stages& stages)
-{
-    const int wanted = texture_density(prepared.scene, prepared.atlas);
-    const int scale = std::clamp(options.baked_size / prepared.atlas.pages.side, 1, wanted);
-    if (scale < wanted)
-        stages.tell("textures in scene-baked.glb are downsampled to " +
-                    percent_text(double(scale) / wanted) +
-                    "; raise --baked-size, or use scene.glb");
-    return scale == 1 ? radiance
-                      : fine_radiance(prepared.scene, prepared.atlas, map, radiance, scale);
 }
 
 }  // namespace
@@ -189,15 +148,17 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
               maps.layers);
     write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open, error);
     const std::optional<AddedCamera> camera = camera_for(prepared, written.view);
+    const GltfDocument document = load_gltf_document(prepared.scene.path);
     // If only indirect light is baked, viewers add direct light of lamps themselves.
-    write_scene_glb(folder.path(kSceneFile), prepared.scene, prepared.atlas, map,
+    write_scene_glb(folder.path(kSceneFile), document, prepared.scene, prepared.atlas, map,
                     {.keep = options.keep_lights || options.parts == Parts::indirect,
                      .exposure = written.exposure,
                      .format = options.lightmap_format,
                      .camera = camera});
-    const Image shown =
-        tone_map(baked_texture(options, prepared, map, radiance, stages), exposure_of_radiance);
-    write_baked_glb(folder.path("scene-baked.glb"), prepared.scene, prepared.atlas, shown, camera);
+    const Image shown = tone_map(baked_texture(prepared, map, radiance, options.baked_size, stages),
+                                 exposure_of_radiance);
+    write_baked_glb(folder.path("scene-baked.glb"), document, prepared.scene, prepared.atlas, shown,
+                    camera);
     return written;
 }
 

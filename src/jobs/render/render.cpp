@@ -192,11 +192,11 @@ struct Lit {
     Lit(Scene scene, const SolveScene::LayOut& lay_out, const std::optional<View>& given,
         const gpu::Device& device, RenderOptions& options, Stages& stages)
         : setting(lay_out
-                      ? std::make_unique<Setting>(std::move(scene), lay_out, device, options.bake,
+                      ? std::make_unique<Setting>(std::move(scene), lay_out, &device, options.bake,
                                                   stages)
-                      : std::make_unique<Setting>(std::move(scene), device, options.bake, stages)),
+                      : std::make_unique<Setting>(std::move(scene), &device, options.bake, stages)),
           view(given ? *given : view_for(setting->prepared.scene, setting->prepared.rays, options)),
-          lamps(light_of_lamps(device, *setting, options.bake, stages)),
+          lamps(light_of_lamps(&device, *setting, options.bake, stages)),
           // Without rays, shooters do all.
           particles(options.rays > 0 ? setting->carriers() : nullptr),
           lumels(shining(setting->prepared.lumels, lamps.irradiance,

@@ -15,7 +15,7 @@ Lumels dark(Lumels lumels)
     return lumels;
 }
 
-std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
+std::unique_ptr<Solution> run(const gpu::Device* device, const Setting& setting,
                               const SolverOptions& options, std::optional<Lumels> changed,
                               std::span<const glm::vec3> known, Stages& stages,
                               const LobeParticles* particles, Parts parts = Parts::all,
@@ -41,7 +41,7 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
 }
 
 /// direct: [N] [lx] light of sky and lamps, or empty.
-std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& setting,
+std::unique_ptr<Solution> solve_parts(const gpu::Device* device, const Setting& setting,
                                       const BakeOptions& options,
                                       const std::vector<glm::vec3>& direct, Stages& stages,
                                       Checkpoint* checkpoint)
@@ -96,14 +96,14 @@ DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t
             .shots = directional_shots(batch_of(options.solver.method) > 0 ? solver_shots : 0)};
 }
 
-DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
+DirectLight light_of_lamps(const gpu::Device* device, const Setting& setting,
                            const BakeOptions& options, Stages& stages)
 {
     if (!has_lights(setting.prepared.scene) || method_of(options.solver.method).finds_lights)
         return {};
     stages.begin("sky and lamps");
     DirectLight light =
-        direct_light(device, *setting.world, setting.prepared.scene, setting.prepared.lumels,
+        direct_light(*device, *setting.world, setting.prepared.scene, setting.prepared.lumels,
                      direct_light_options(options.solver, options.sky_directions),
                      [&](double fraction) { return stages.progress(fraction); });
     stages.note_times(light.times);
@@ -123,7 +123,7 @@ std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>
     return result;
 }
 
-std::unique_ptr<Solution> solve_light(const gpu::Device& device, const Setting& setting,
+std::unique_ptr<Solution> solve_light(const gpu::Device* device, const Setting& setting,
                                       const BakeOptions& options, Stages& stages,
                                       Checkpoint* checkpoint)
 {

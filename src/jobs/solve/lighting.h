@@ -16,8 +16,9 @@ DirectLightOptions direct_light_options(const SolverOptions& solver, std::uint32
 /// Directional options for a solution that took `solver_shots`.
 DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t solver_shots);
 
-/// Direct light of sky and lamps, as the stage "sky and lamps"; empty if there are none.
-DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
+/// Direct light of sky and lamps, as the stage "sky and lamps"; empty if there are none, or the
+/// method finds it.
+DirectLight light_of_lamps(const gpu::Device* device, const Setting& setting,
                            const BakeOptions& options, Stages& stages);
 
 /// Treatment of sky and lamp light on lobes.
@@ -46,8 +47,9 @@ struct Solution {
 /// reflection; indirect light then starts from all direct light that surfaces reflect. Indirect
 /// light therefore takes two solves, and its first bounce is diffuse for any method. One solve is
 /// not enough: its sums mix the light of emissive surfaces with that of lamps on surfaces.
-/// checkpoint: of a method that can continue, or null.
-std::unique_ptr<Solution> solve_light(const gpu::Device& device, const Setting& setting,
+/// device: null for methods on the CPU, if there is none. checkpoint: of a method that can
+/// continue, or null.
+std::unique_ptr<Solution> solve_light(const gpu::Device* device, const Setting& setting,
                                       const BakeOptions& options, Stages& stages,
                                       Checkpoint* checkpoint = nullptr);
 

@@ -97,6 +97,11 @@ MemoryLimits memory_limits(const BakeOptions& options, const gpu::DeviceInfo& de
     return memory_limits(options.max_memory, device, available_memory_bytes());
 }
 
+MemoryLimits memory_limits(const BakeOptions& options, const gpu::Device* device)
+{
+    return memory_limits(options, device ? device->info() : gpu::DeviceInfo{});
+}
+
 std::string shortage(const GraphicsMemory& device, const HostMemory& host, int side,
                      const MemoryLimits& limits)
 {

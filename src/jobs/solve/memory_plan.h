@@ -30,6 +30,8 @@ struct MemoryLimits {
 MemoryLimits memory_limits(std::uint64_t max_memory, const gpu::DeviceInfo& device,
                            std::uint64_t available);
 MemoryLimits memory_limits(const BakeOptions& options, const gpu::DeviceInfo& device);
+/// device: null if there is none.
+MemoryLimits memory_limits(const BakeOptions& options, const gpu::Device* device);
 
 /// A sentence if a bake with an atlas of `side` [texels] exceeds the limits, with a size that would
 /// fit; empty if it fits.

@@ -52,13 +52,13 @@ Scene in_stage(Scene scene, Stages& stages)
     return scene;
 }
 
-NearField near_field_of(const SolveScene& prepared, const gpu::Device& device,
+NearField near_field_of(const SolveScene& prepared, const gpu::Device* device,
                         const BakeOptions& given, Stages& stages)
 {
     const SolverOptions& options = given.solver;
     tell_user(prepared);
     note_sizes(prepared, stages);
-    check_memory(prepared, given, memory_limits(given, device.info()));
+    check_memory(prepared, given, memory_limits(given, device));
     if (!has_near_field(options.method))
         return {};
     stages.begin("near field");
@@ -69,14 +69,15 @@ NearField near_field_of(const SolveScene& prepared, const gpu::Device& device,
     return near;
 }
 
-std::optional<World> world_on(const gpu::Device& device, const SolveScene& prepared,
+std::optional<World> world_on(const gpu::Device* device, const SolveScene& prepared,
                               const BakeOptions& options, Stages& stages)
 {
-    stages.watch(device);
+    if (device)
+        stages.watch(*device);
     if (!needs_world(options))
         return {};
     stages.begin("uploading");
-    return std::optional<World>(std::in_place, device, prepared.scene, prepared.lumels,
+    return std::optional<World>(std::in_place, *device, prepared.scene, prepared.lumels,
                                 &prepared.atlas);
 }
 
@@ -123,7 +124,7 @@ std::optional<LobeParticles> particles_for(const SolveScene& prepared, const Sol
     return particles;
 }
 
-Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages)
+Setting::Setting(Scene scene, const gpu::Device* device, const BakeOptions& options, Stages& stages)
     : Setting(
           std::move(scene),
           [&](const Scene& placed, const RayScene& rays, const ProgressCallback& progress) {
@@ -134,7 +135,7 @@ Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& opti
 {
 }
 
-Setting::Setting(Scene scene, const SolveScene::LayOut& lay_out, const gpu::Device& device,
+Setting::Setting(Scene scene, const SolveScene::LayOut& lay_out, const gpu::Device* device,
                  const BakeOptions& options, Stages& stages)
     : prepared(in_stage(std::move(scene), stages), lay_out, {}, stages.callback()),
       near(near_field_of(prepared, device, options, stages)),

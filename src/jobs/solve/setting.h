@@ -34,10 +34,10 @@ bool needs_world(const BakeOptions& options);
 
 /// A scene on a device with all inputs of a solver. Must not move.
 struct Setting {
-    /// Throws Error.
-    Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages);
+    /// device: null for methods on the CPU, if there is none. Throws Error.
+    Setting(Scene scene, const gpu::Device* device, const BakeOptions& options, Stages& stages);
     /// Uses the atlas that `lay_out` makes of the scene.
-    Setting(Scene scene, const SolveScene::LayOut& lay_out, const gpu::Device& device,
+    Setting(Scene scene, const SolveScene::LayOut& lay_out, const gpu::Device* device,
             const BakeOptions& options, Stages& stages);
     Setting(const Setting&) = delete;
     Setting& operator=(const Setting&) = delete;

@@ -77,8 +77,8 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
     const Setting setting(
         edit.now.scene,
         [&](const Scene&, const RayScene&, const ProgressCallback&) { return edit.now.atlas; },
-        device, options, stages);
-    std::unique_ptr<Solution> solution = solve_light(device, setting, options, stages);
+        &device, options, stages);
+    std::unique_ptr<Solution> solution = solve_light(&device, setting, options, stages);
     const SolverState state = solution->solver->state();
     row.solved_anew = true;
     row.residual = state.error;

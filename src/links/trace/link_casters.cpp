@@ -42,9 +42,16 @@ std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene&
 
 }  // namespace
 
-LinkWork::Casters casters_for(const gpu::Device& device, const RayScene& rays, Rays wanted)
+LinkWork::Casters casters_for(const gpu::Device* device, const RayScene& rays, Rays wanted)
 {
-    return {.rays = caster_for(device, rays, wanted), .bundles = bundles_for(device, rays, wanted)};
+    if (!device) {
+        if (wanted == Rays::query || wanted == Rays::raster)
+            throw Error(ErrorKind::device, "--rays",
+                        "needs a device for rays that are not \"host\"");
+        return {.rays = cast_on_host(rays)};
+    }
+    return {.rays = caster_for(*device, rays, wanted),
+            .bundles = bundles_for(*device, rays, wanted)};
 }
 
 }  // namespace lumel

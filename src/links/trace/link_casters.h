@@ -7,7 +7,8 @@
 
 namespace lumel {
 
-/// The backend of the options; `rays` must outlive it. Throws Error{device} if the device lacks it.
-LinkWork::Casters casters_for(const gpu::Device& device, const RayScene& rays, Rays wanted);
+/// The backend of the options; `rays` must outlive it. device: null if there is none. Throws
+/// Error{device} if the device lacks the backend.
+LinkWork::Casters casters_for(const gpu::Device* device, const RayScene& rays, Rays wanted);
 
 }  // namespace lumel

@@ -61,7 +61,7 @@ private:
 
 }  // namespace
 
-LinkRadiosity::LinkRadiosity(const gpu::Device& device, const SolveScene& scene,
+LinkRadiosity::LinkRadiosity(const gpu::Device* device, const SolveScene& scene,
                              const LinksOptions& options, const SolveLimits& limits, Parts parts)
     : LinkRadiosity(scene, casters_for(device, scene.rays, options.rays), options, limits, parts)
 {

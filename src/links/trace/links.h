@@ -31,10 +31,10 @@ std::uint64_t free_bytes_for_links();
 /// fraction of a second.
 class LinkRadiosity final : public Solver {
 public:
-    /// All arguments must outlive this. limits: stopping criteria. parts: of the light that
-    /// irradiance() returns. Throws Error{device} if the options require a ray tracing backend that
-    /// the device lacks.
-    LinkRadiosity(const gpu::Device& device, const SolveScene& scene, const LinksOptions& options,
+    /// All arguments must outlive this. device: null if there is none. limits: stopping criteria.
+    /// parts: of the light that irradiance() returns. Throws Error{device} if the options require a
+    /// ray tracing backend that the device lacks.
+    LinkRadiosity(const gpu::Device* device, const SolveScene& scene, const LinksOptions& options,
                   const SolveLimits& limits, Parts parts);
     /// Traces rays on the CPU.
     LinkRadiosity(const SolveScene& scene, const LinksOptions& options, const SolveLimits& limits,

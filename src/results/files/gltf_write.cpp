@@ -102,10 +102,9 @@ std::size_t add_lightmap(GlbBuilder& builder, const Image& map, float scale,
 /// edits these and releases the builder; `finish` adds the textures of the pages. Both receive the
 /// builder and the materials by page.
 template <class Prepare, class Finish>
-void rewrite(const std::string& path, const Scene& scene, const Atlas& atlas,
-             const Prepare& prepare, const Finish& finish)
+void rewrite(const std::string& path, const GltfDocument& document, const Scene& scene,
+             const Atlas& atlas, const Prepare& prepare, const Finish& finish)
 try {
-    const GltfDocument document = load_gltf_document(scene.path);
     GlbBuilder builder(document);
     std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
 
@@ -123,8 +122,8 @@ try {
 
 }  // namespace
 
-void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
-                     const Image& map, const SceneLighting& lights)
+void write_scene_glb(const std::string& path, const GltfDocument& document, const Scene& scene,
+                     const Atlas& atlas, const Image& map, const SceneLighting& lights)
 {
     const auto prepare = [&](GlbBuilder& builder, const auto&) {
         for (const std::size_t old : outdated_lightmaps(builder.json, builder.document().json))
@@ -134,7 +133,7 @@ void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& a
         if (lights.camera)
             add_camera(builder.json, *lights.camera, scene.origin);
     };
-    rewrite(path, scene, atlas, prepare, [&](GlbBuilder& builder, const auto& materials) {
+    rewrite(path, document, scene, atlas, prepare, [&](GlbBuilder& builder, const auto& materials) {
         const float scale = lightmap_scale(map, lights.exposure);
         for (std::size_t page = 0; page < materials.size(); ++page) {
             if (lights.format != LightmapFormat::none)
@@ -148,8 +147,9 @@ void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& a
     });
 }
 
-void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
-                     const Image& shown, const std::optional<AddedCamera>& camera)
+void write_baked_glb(const std::string& path, const GltfDocument& document, const Scene& scene,
+                     const Atlas& atlas, const Image& shown,
+                     const std::optional<AddedCamera>& camera)
 {
     const auto prepare = [&](GlbBuilder& builder, const auto& materials) {
         reduce_to_core(builder.json, materials);
@@ -157,7 +157,7 @@ void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& a
         if (camera)
             add_camera(builder.json, *camera, scene.origin);
     };
-    rewrite(path, scene, atlas, prepare, [&](GlbBuilder& builder, const auto& materials) {
+    rewrite(path, document, scene, atlas, prepare, [&](GlbBuilder& builder, const auto& materials) {
         erase_extensions(builder.json);
         for (std::size_t page = 0; page < materials.size(); ++page) {
             const Image part = without_alpha(cut_page(atlas.pages, int(page), shown), 1.0f);

@@ -1,5 +1,5 @@
 #pragma once
-// Writes the lit glTF: the input file with a lightmap, or with its light baked in.
+// Writes the lit glTF: the scene's document with a lightmap, or with its light baked in.
 //
 // Both files are one self-contained .glb. All of the input's content is kept (nodes, cameras,
 // animations, skins, extras, images), but every baked primitive of every instance becomes a
@@ -13,6 +13,7 @@
 #include "atlas/packing/atlas.h"
 #include "base/core/image.h"
 #include "base/images/lightmap_format.h"
+#include "scene/gltf/document.h"
 #include "scene/values/scene.h"
 #include "scene/values/view.h"
 
@@ -40,20 +41,22 @@ struct SceneLighting {
 /// the PNG clips there. As in three.js, the radiance that a surface reflects is
 ///     albedo / π × texel × intensity.
 /// extras.lumel of each baked material also names the map beside the file: tools that drop the
-/// extension keep extras. map: irradiance [lx], RGBA. Throws Error.
+/// extension keep extras. document: that the scene was read from. map: irradiance [lx], RGBA.
+/// Throws Error.
 ///
 /// Lamps and skies of the input are baked: they move to extras (see scene/gltf/baked_lights.h),
 /// unless `lights` keeps them. asset.extras.lumel has their number and the exposure. A camera of
 /// `lights` is added as the node "preview" of the default scene.
-void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
-                     const Image& map, const SceneLighting& lights = {});
+void write_scene_glb(const std::string& path, const GltfDocument& document, const Scene& scene,
+                     const Atlas& atlas, const Image& map, const SceneLighting& lights = {});
 
 /// scene-baked.glb: core glTF that any viewer shows lit. Every baked material is black, fully
 /// metallic and rough, so that it reflects nothing, and emits an 8-bit sRGB texture on TEXCOORD_1.
 /// Cut-outs and blending keep their alpha. Lights and material extensions are removed. shown: light
 /// from surfaces, tone-mapped by tone_map, RGBA, of any density. camera: added as in scene.glb.
 /// Throws Error.
-void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
-                     const Image& shown, const std::optional<AddedCamera>& camera = {});
+void write_baked_glb(const std::string& path, const GltfDocument& document, const Scene& scene,
+                     const Atlas& atlas, const Image& shown,
+                     const std::optional<AddedCamera>& camera = {});
 
 }  // namespace lumel

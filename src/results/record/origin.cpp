@@ -20,16 +20,18 @@ std::string lumel_version()
 
 std::map<std::string, std::string> library_versions()
 {
-    return {{"Draco", draco_version()},
-            {"Embree", embree_version()},
-            {"OpenBLAS", blas::openblas_version()},
-            {"OpenEXR", openexr_version()},
-            {"libpng", libpng_version()},
-            {"libwebp", webp_version()},
-            {"meshoptimizer", meshoptimizer_version()},
-            {"nlohmann_json", json_library_version()},
-            {"zstd", zstd_version()},
-            {"oneTBB", tbb_version()}};
+    std::map<std::string, std::string> versions = {{"Draco", draco_version()},
+                                                   {"Embree", embree_version()},
+                                                   {"OpenEXR", openexr_version()},
+                                                   {"libpng", libpng_version()},
+                                                   {"libwebp", webp_version()},
+                                                   {"meshoptimizer", meshoptimizer_version()},
+                                                   {"nlohmann_json", json_library_version()},
+                                                   {"zstd", zstd_version()},
+                                                   {"oneTBB", tbb_version()}};
+    if (const std::string version = blas::openblas_version(); !version.empty())
+        versions["OpenBLAS"] = version;
+    return versions;
 }
 
 std::string local_time()

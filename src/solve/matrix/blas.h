@@ -1,5 +1,6 @@
 #pragma once
-// Dense linear algebra by the system's tuned BLAS. All matrices are row-major, without gaps.
+// Dense linear algebra by the system's OpenBLAS. All matrices are row-major, without gaps. Throws
+// Error{device} if it cannot be loaded.
 
 #include <cstdint>
 #include <span>
@@ -30,7 +31,7 @@ bool solve_from_right(std::span<float> a, std::span<float> b, std::uint32_t n);
 /// a [n][n], symmetric, becomes its eigenvectors, one a row, that of the largest eigenvalue first.
 void eigenvectors(std::span<float> a, std::uint32_t n);
 
-/// Of the BLAS that is loaded: "0.3.21".
+/// "0.3.21"; empty before the first of these calls.
 std::string openblas_version();
 
 }  // namespace lumel::blas

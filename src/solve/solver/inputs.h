@@ -16,8 +16,8 @@ class LobeParticles;
 
 /// Inputs of a method. All must outlive it.
 struct SolverInputs {
-    const gpu::Device& device;
-    const World* world;  ///< null for methods that run on the CPU
+    const gpu::Device* device;  ///< null only for methods that run on the CPU, if there is none
+    const World* world;         ///< null for methods that run on the CPU
     const Lumels& lumels;
     const NearField& near;  ///< may be empty for methods and schemes that use no near field
     /// Given irradiance H [N] [lx] in addition to the solver's, or empty. The estimated error is

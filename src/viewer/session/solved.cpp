@@ -56,10 +56,10 @@ SolvedLight solve_standing(const gpu::Device& device, StandingScene standing, co
         [&](const Scene&, const RayScene&, const ProgressCallback&) {
             return std::move(standing.atlas);
         },
-        device, options, stages);
+        &device, options, stages);
     options.solver.max_bytes =
-        bytes_for_links(setting.prepared, options, memory_limits(options, device.info()));
-    const std::unique_ptr<Solution> solution = solve_light(device, setting, options, stages);
+        bytes_for_links(setting.prepared, options, memory_limits(options, &device));
+    const std::unique_ptr<Solution> solution = solve_light(&device, setting, options, stages);
     stages.end();
     device.check_validation();
     const SolverState state = solution->solver->state();

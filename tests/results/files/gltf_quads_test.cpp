@@ -49,10 +49,10 @@ TEST_F(TwoQuads, AnAddedCameraSeesFromWhereItIs)
         const Atlas atlas = test::corner_atlas(read);
         View view{.vertical_fov = 1.1f, .aspect = 1.5f};
         view.transform = glm::mat4({0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {1, 2, 3, 1});
-        write_scene_glb(folder_ / "scene.glb", read, atlas, test::any_map(atlas),
-                        {.camera = AddedCamera{view, kExtent}});
-        write_baked_glb(folder_ / "baked.glb", read, atlas, test::any_map(atlas),
-                        AddedCamera{view, kExtent});
+        write_scene_glb(folder_ / "scene.glb", load_gltf_document(read.path), read, atlas,
+                        test::any_map(atlas), {.camera = AddedCamera{view, kExtent}});
+        write_baked_glb(folder_ / "baked.glb", load_gltf_document(read.path), read, atlas,
+                        test::any_map(atlas), AddedCamera{view, kExtent});
         EXPECT_EQ(load_gltf_document(folder_ / "baked.glb").json["cameras"],
                   load_gltf_document(folder_ / "scene.glb").json["cameras"]);
         const Scene again = read_gltf(folder_ / "scene.glb");
@@ -164,7 +164,7 @@ TEST_F(TwoQuads, TheBoundLightmapIsWithinAPercentOverTheWholeRangeAndClipsNothin
     std::nth_element(values.begin(), high, values.end());
     for (const LightmapFormat format : {LightmapFormat::ktx2, LightmapFormat::rgb9e5})
         for (const float exposure : {1e-6f, 0.01f, 100.0f}) {
-            write_scene_glb(folder_ / "scene.glb", read, atlas, map,
+            write_scene_glb(folder_ / "scene.glb", load_gltf_document(read.path), read, atlas, map,
                             {.exposure = exposure, .format = format});
             const Image bound = bound_map(folder_ / "scene.glb");
             ASSERT_EQ(bound.values.size(), given.size());
@@ -182,8 +182,8 @@ TEST_F(TwoQuads, WithoutAFormatNoMapIsInTheFile)
 {
     const Scene read = scene(file());
     const Atlas atlas = test::corner_atlas(read);
-    write_scene_glb(folder_ / "scene.glb", read, atlas, test::any_map(atlas),
-                    {.format = LightmapFormat::none});
+    write_scene_glb(folder_ / "scene.glb", load_gltf_document(read.path), read, atlas,
+                    test::any_map(atlas), {.format = LightmapFormat::none});
     const Json json = load_gltf_document(folder_ / "scene.glb").json;
     EXPECT_FALSE(json.contains("extensionsUsed"));
     EXPECT_EQ(json["images"].size(), 1u);
@@ -226,7 +226,8 @@ TEST_F(TwoQuads, WhereBothTexcoordsAreReadWhatIsWrittenReadsTheSameAndIsWrittenA
     both["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2;
     const Scene before = scene(both);
     const Atlas atlas = test::corner_atlas(before);
-    write_scene_glb(folder_ / "scene.glb", before, atlas, test::any_map(atlas));
+    write_scene_glb(folder_ / "scene.glb", load_gltf_document(before.path), before, atlas,
+                    test::any_map(atlas));
     const Scene after = read_gltf(folder_ / "scene.glb");
     for (const Surface& surface : atlas.surfaces) {
         const Primitive& old = test::primitive_of(before, surface);
@@ -242,7 +243,8 @@ TEST_F(TwoQuads, WhereBothTexcoordsAreReadWhatIsWrittenReadsTheSameAndIsWrittenA
     }
 
     const Atlas again = test::corner_atlas(after);
-    write_scene_glb(folder_ / "again.glb", after, again, test::any_map(again));
+    write_scene_glb(folder_ / "again.glb", load_gltf_document(after.path), after, again,
+                    test::any_map(again));
     const Json json = load_gltf_document(folder_ / "again.glb").json;
     const Json& mesh = json["meshes"][json["nodes"][0]["mesh"].get<std::size_t>()];
     const Json& attributes = mesh["primitives"][0]["attributes"];
@@ -329,7 +331,8 @@ TEST_F(TwoQuads, BakingAgainReplacesTheOlderLightmap)
     const std::vector<char> first = test::bytes_of(folder_ / "scene.glb");
     const Scene again = read_gltf(folder_ / "scene.glb");
     const Atlas atlas = test::corner_atlas(again);
-    write_scene_glb(folder_ / "again.glb", again, atlas, test::any_map(atlas));
+    write_scene_glb(folder_ / "again.glb", load_gltf_document(again.path), again, atlas,
+                    test::any_map(atlas));
     const Json json = load_gltf_document(folder_ / "again.glb").json;
     EXPECT_EQ(json["images"].size(), 3u);
     EXPECT_EQ(json["textures"].size(), 2u);
@@ -378,7 +381,8 @@ TEST_F(TwoQuads, AFileThatChangedMeanwhileIsAnError)
     Json other = file();
     other["nodes"][0].erase("mesh");
     scene(other);
-    EXPECT_THROW(write_scene_glb(folder_ / "scene.glb", before, atlas, test::any_map(atlas)),
+    EXPECT_THROW(write_scene_glb(folder_ / "scene.glb", load_gltf_document(before.path), before,
+                                 atlas, test::any_map(atlas)),
                  Error);
 }
 

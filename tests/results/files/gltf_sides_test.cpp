@@ -80,7 +80,8 @@ TEST_F(TwoQuads, BacksBendTheirNormalsAsBacksOfDoubleSidedSurfacesDo)
 
     const Scene read = scene(json);
     const Atlas atlas = with_own_backs(test::corner_atlas(read));
-    write_scene_glb(folder_ / "out.glb", read, atlas, test::any_map(atlas));
+    write_scene_glb(folder_ / "out.glb", load_gltf_document(read.path), read, atlas,
+                    test::any_map(atlas));
     const GltfDocument written =
         load_gltf_document(without_marks(folder_ / "out.glb", folder_ / "viewed.glb"));
     const auto mesh = written.json["nodes"][0]["mesh"].get<std::size_t>();
@@ -130,7 +131,8 @@ TEST_F(TwoQuads, NormalsOfBacksPointTheOtherWayInWholeNumbersToo)
 
         const Scene read = scene(json);
         const Atlas atlas = with_own_backs(test::corner_atlas(read));
-        write_scene_glb(folder_ / "out.glb", read, atlas, test::any_map(atlas));
+        write_scene_glb(folder_ / "out.glb", load_gltf_document(read.path), read, atlas,
+                        test::any_map(atlas));
         const Scene viewed = read_gltf(without_marks(folder_ / "out.glb", folder_ / "viewed.glb"));
         const Mesh& mesh = viewed.meshes[std::size_t(viewed.instances[0].mesh)];
         ASSERT_EQ(mesh.primitives.size(), 2u);
@@ -150,7 +152,8 @@ TEST(GltfWrite, HasAFaceForEachSideAndIsReadAsDoubleSidedAgain)
     std::ofstream(folder / "in.gltf") << file;
     const Scene scene = read_gltf(folder / "in.gltf");
     const Atlas atlas = with_own_backs(test::corner_atlas(scene));
-    write_scene_glb(folder / "out.glb", scene, atlas, test::any_map(atlas), {});
+    write_scene_glb(folder / "out.glb", load_gltf_document(scene.path), scene, atlas,
+                    test::any_map(atlas), {});
 
     // As any viewer has it: two single-sided faces, turned away from each other, the second at the
     // place of the back.

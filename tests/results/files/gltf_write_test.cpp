@@ -125,8 +125,8 @@ TEST(GltfWrite, LampsThatAreBakedShineNoMoreButComeBackForALaterBake)
     ASSERT_EQ(scene.lights.size(), 1u);
     const Atlas atlas = test::corner_atlas(scene);
     for (const bool keep : {false, true}) {
-        write_scene_glb(folder / "scene.glb", scene, atlas, test::any_map(atlas),
-                        {.keep = keep, .exposure = 0.25f});
+        write_scene_glb(folder / "scene.glb", load_gltf_document(scene.path), scene, atlas,
+                        test::any_map(atlas), {.keep = keep, .exposure = 0.25f});
         std::ifstream file(folder / "scene.glb", std::ios::binary);
         const std::string bytes(std::istreambuf_iterator<char>(file), {});
         EXPECT_EQ(bytes.find(R"("extensions":{"KHR_lights_punctual")") != std::string::npos, keep);
@@ -158,7 +158,8 @@ TEST(GltfWrite, ProfilesOfLampsThatAreBakedKeepTheirData)
     const Scene scene = read_gltf(folder / "lamp.gltf");
     ASSERT_EQ(scene.profiles.size(), 1u);
     const Atlas atlas = test::corner_atlas(scene);
-    write_scene_glb(folder / "scene.glb", scene, atlas, test::any_map(atlas));
+    write_scene_glb(folder / "scene.glb", load_gltf_document(scene.path), scene, atlas,
+                    test::any_map(atlas));
     const Scene again = read_gltf(folder / "scene.glb");
     ASSERT_EQ(again.profiles.size(), 1u);
     EXPECT_EQ(again.profiles[0].candela, scene.profiles[0].candela);
@@ -177,8 +178,10 @@ TEST(GltfWrite, EveryTriangleOfEveryLoadableFileComesBackInItsPlace)
             continue;
         ++tried;
         const Atlas atlas = test::corner_atlas(*scene);
-        write_scene_glb(folder / "scene.glb", *scene, atlas, test::any_map(atlas));
-        write_baked_glb(folder / "baked.glb", *scene, atlas, test::any_map(atlas));
+        write_scene_glb(folder / "scene.glb", load_gltf_document(scene->path), *scene, atlas,
+                        test::any_map(atlas));
+        write_baked_glb(folder / "baked.glb", load_gltf_document(scene->path), *scene, atlas,
+                        test::any_map(atlas));
         for (const char* name : {"scene.glb", "baked.glb"}) {
             SCOPED_TRACE(name);
             const Scene after = read_gltf(folder / name);
@@ -203,7 +206,8 @@ TEST(GltfWrite, MaterialsLookAsBeforeInSceneGlb)
         if (!scene)
             continue;
         const Atlas atlas = test::corner_atlas(*scene);
-        write_scene_glb(folder / "scene.glb", *scene, atlas, test::any_map(atlas));
+        write_scene_glb(folder / "scene.glb", load_gltf_document(scene->path), *scene, atlas,
+                        test::any_map(atlas));
         const Scene after = read_gltf(folder / "scene.glb");
         for (const Surface& surface : atlas.surfaces) {
             const Primitive& old_list = test::primitive_of(*scene, surface);

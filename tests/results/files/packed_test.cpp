@@ -46,7 +46,7 @@ TEST(Packed, WhatIsWrittenIsPlainAndShowsTheSame)
     ASSERT_EQ(scene.instances.size(), 3u);
     const Atlas atlas = corner_atlas(scene);
     const std::string written = folder.path("written.glb");
-    write_scene_glb(written, scene, atlas, any_map(atlas), {});
+    write_scene_glb(written, load_gltf_document(scene.path), scene, atlas, any_map(atlas), {});
 
     const GltfDocument document = load_gltf_document(written);
     const std::string json = document.json.dump();
@@ -70,7 +70,7 @@ TEST(Packed, NothingOfTheStreamsIsLeftInTheFile)
     const Scene scene = read_gltf(packed_scene().write(folder));
     const Atlas atlas = corner_atlas(scene);
     const std::string written = folder.path("written.glb");
-    write_scene_glb(written, scene, atlas, any_map(atlas), {});
+    write_scene_glb(written, load_gltf_document(scene.path), scene, atlas, any_map(atlas), {});
     const Bytes file = read_file(written, written);
     for (const std::string& mark : {std::string("DRACO\x02\x02"), std::string("WEBPVP8")})
         EXPECT_EQ(std::search(file.begin(), file.end(), mark.begin(), mark.end()), file.end())

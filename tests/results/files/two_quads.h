@@ -61,7 +61,8 @@ protected:
     {
         const Scene read = scene(json);
         const Atlas atlas = corner_atlas(read);
-        write_scene_glb(folder_ / "scene.glb", read, atlas, any_map(atlas));
+        write_scene_glb(folder_ / "scene.glb", load_gltf_document(read.path), read, atlas,
+                        any_map(atlas));
         return load_gltf_document(folder_ / "scene.glb").json;
     }
 
@@ -69,7 +70,8 @@ protected:
     {
         const Scene read = scene(json);
         const Atlas atlas = corner_atlas(read);
-        write_baked_glb(folder_ / "baked.glb", read, atlas, any_map(atlas));
+        write_baked_glb(folder_ / "baked.glb", load_gltf_document(read.path), read, atlas,
+                        any_map(atlas));
         return load_gltf_document(folder_ / "baked.glb").json;
     }
 

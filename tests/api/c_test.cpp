@@ -1,0 +1,301 @@
+// The interface for C: what it makes of scenes and bakes is what lumel.h makes of them.
+
+#include <cstring>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "../support/temporary_folder.h"
+#include "boxes.h"
+#include "lumel/lumel_c.h"
+
+namespace lumel::v0 {
+namespace {
+
+using namespace test;
+
+struct FreeScene {
+    void operator()(lumel_scene* scene) const { lumel_free_scene(scene); }
+};
+struct FreeBaked {
+    void operator()(const lumel_baked* baked) const { lumel_free_baked(baked); }
+};
+using ScenePointer = std::unique_ptr<lumel_scene, FreeScene>;
+using BakedPointer = std::unique_ptr<const lumel_baked, FreeBaked>;
+
+/// closed_cube() as C arrays: its floor glows, its triangles 4 and 5.
+struct Cube {
+    static constexpr std::uint32_t kFloor = 4;  ///< its first triangle
+
+    SceneContent content = closed_cube({.name = "white", .base_color = {0.7f, 0.7f, 0.7f, 1}});
+    std::array<lumel_material, 2> materials{
+        lumel_material{.name = "white", .base_color = {0.7f, 0.7f, 0.7f, 1}},
+        lumel_material{.name = "glow", .base_color = {0, 0, 0, 1}, .emitted = {100, 100, 100}}};
+    std::vector<std::uint32_t> of_triangle = std::vector<std::uint32_t>(12, 0);
+    lumel_mesh mesh{};
+    lumel_instance instance{};
+
+    Cube()
+    {
+        const Primitive& sides = content.meshes[0].primitives[0];
+        of_triangle[kFloor] = of_triangle[kFloor + 1] = 1;
+        mesh = {.name = "cube",
+                .vertex_count = std::uint32_t(sides.positions.size()),
+                .positions = sides.positions[0].data(),
+                .triangle_count = 12,
+                .indices = sides.indices.data(),
+                .material_count = 2,
+                .materials = materials.data(),
+                .triangle_materials = of_triangle.data()};
+        instance = {.name = "room", .mesh = &mesh};
+    }
+    Cube(const Cube&) = delete;
+
+    lumel_content arrays() const { return {.instance_count = 1, .instances = &instance}; }
+
+    /// The same for C++.
+    SceneContent values() const
+    {
+        SceneContent same = content;
+        same.materials.push_back(
+            {.name = "glow", .base_color = {0, 0, 0, 1}, .emitted = {100, 100, 100}});
+        Primitive& white = same.meshes[0].primitives[0];
+        Primitive glow = white;
+        glow.material = 1;
+        const auto first = white.indices.begin() + 3 * kFloor;
+        glow.indices = {first, first + 6};
+        white.indices.erase(first, first + 6);
+        same.meshes[0].primitives.push_back(glow);
+        same.instances[0].name = "room";
+        return same;
+    }
+};
+
+ScenePointer scene_of(const lumel_content& content)
+{
+    lumel_scene* scene = nullptr;
+    EXPECT_EQ(lumel_make_scene(&content, &scene), LUMEL_OK) << lumel_message();
+    return ScenePointer(scene);
+}
+
+BakedPointer baked_of(const lumel_scene* scene, const lumel_settings& settings)
+{
+    const lumel_baked* baked = nullptr;
+    EXPECT_EQ(lumel_bake(nullptr, scene, &settings, &baked), LUMEL_OK) << lumel_message();
+    return BakedPointer(baked);
+}
+
+void expect_refusal(lumel_result result, lumel_result wanted,
+                    std::initializer_list<const char*> words)
+{
+    EXPECT_EQ(result, wanted);
+    for (const char* word : words)
+        EXPECT_NE(std::strstr(lumel_message(), word), nullptr) << lumel_message();
+}
+
+TEST(LumelC, IsOfTheSameVersion)
+{
+    EXPECT_EQ(lumel_version(), version());
+}
+
+TEST(LumelC, GivesTheBakeOfLumelH)
+{
+    const Cube cube;
+    const ScenePointer scene = scene_of(cube.arrays());
+    const BakedPointer baked = baked_of(scene.get(), {.size = kSize, .seed = 7});
+    const Baked same = bake(Scene(cube.values()), {.atlas = {.size = kSize}, .seed = 7});
+    ASSERT_EQ(baked->map.width, kSize);
+    EXPECT_TRUE(
+        std::ranges::equal(same.map.rgba, std::span(baked->map.rgba, same.map.rgba.size())));
+    EXPECT_EQ(baked->shots, same.shots);
+    EXPECT_EQ(baked->eye_error, same.eye_error);
+    EXPECT_EQ(baked->interrupted, 0);
+    EXPECT_EQ(baked->page_count, 1u);
+    EXPECT_EQ(baked->pages[0].side, kSize);
+    ASSERT_EQ(baked->surface_count, 2u);
+    for (std::uint32_t s = 0; s < 2; ++s) {
+        const lumel_surface& surface = baked->surfaces[s];
+        EXPECT_EQ(surface.primitive, s);
+        EXPECT_EQ(surface.triangle_count, s == 0 ? 10u : 2u);
+        for (std::uint32_t v = 0; v < surface.vertex_count; ++v) {
+            EXPECT_EQ(surface.lightmap[2 * v], same.surfaces[s].lightmap[v][0]);
+            // Vertices are those of the mesh: the floor, at y = -1, is the material that glows.
+            const float y = cube.mesh.positions[3 * surface.source_vertex[v] + 1];
+            EXPECT_TRUE(s == 0 || y == -1.0f);
+        }
+    }
+}
+
+TEST(LumelC, GivesProbesAndFiles)
+{
+    const Cube cube;
+    const ScenePointer scene = scene_of(cube.arrays());
+    const BakedPointer baked = baked_of(scene.get(), {.size = kSize});
+    const Baked same = bake(Scene(cube.values()), {.atlas = {.size = kSize}});
+    const float place[3] = {0.1f, 0.2f, 0.3f};
+    lumel_probe probe{};
+    ASSERT_EQ(lumel_probes(baked.get(), place, 1, 0, &probe), LUMEL_OK) << lumel_message();
+    const Probe wanted = probes(same, {{0.1f, 0.2f, 0.3f}}).front();
+    for (std::size_t i = 0; i < 9; ++i)
+        EXPECT_EQ(probe.coefficients[i][1], wanted.coefficients[i][1]);
+    EXPECT_EQ(probe.inside, 0);
+
+    const lumel::test::TemporaryFolder folder;
+    write_scene(folder / "cpp.glb", same, LightmapFormat::png);
+    ASSERT_EQ(lumel_write_scene(baked.get(), (folder / "c.glb").c_str(), LUMEL_PNG), LUMEL_OK);
+    EXPECT_EQ(bytes_of(folder / "c.glb"), bytes_of(folder / "cpp.glb"));
+    ASSERT_EQ(lumel_write_baked_scene(baked.get(), (folder / "lit.glb").c_str(), 0), LUMEL_OK);
+    EXPECT_GT(bytes_of(folder / "lit.glb").size(), 0u);
+    expect_refusal(lumel_write_scene(baked.get(), (folder / "no/c.glb").c_str(), LUMEL_PNG),
+                   LUMEL_BAD_OUTPUT, {"c.glb"});
+}
+
+TEST(LumelC, ReadsFilesWithDaylight)
+{
+    lumel_scene* read = nullptr;
+    ASSERT_EQ(lumel_load_scene(scene_path("cornell-box").c_str(), &read), LUMEL_OK);
+    const ScenePointer scene(read);
+    const float sky[3] = {1.0f, 2.0f, 4.0f};
+    const lumel_daylight daylight{.sky_luminance = sky, .has_sun = 1, .sun_elevation = 0.5};
+    ASSERT_EQ(lumel_add_daylight(scene.get(), &daylight), LUMEL_OK) << lumel_message();
+    const BakedPointer baked = baked_of(scene.get(), {.size = kSize, .shots = 12});
+    Scene same = Scene::load(scene_path("cornell-box"));
+    same.add_daylight(
+        {.sky_luminance = Vec3{1.0f, 2.0f, 4.0f}, .sun = Daylight::Sun{.elevation = 0.5}});
+    const Baked wanted = bake(same, {.atlas = {.size = kSize}, .shots = 12});
+    EXPECT_TRUE(
+        std::ranges::equal(wanted.map.rgba, std::span(baked->map.rgba, wanted.map.rgba.size())));
+    ASSERT_EQ(baked->note_count, wanted.notes.size());
+}
+
+TEST(LumelC, TakesLampsAndSkies)
+{
+    Cube cube;
+    cube.of_triangle.assign(12, 0);
+    const lumel_light lamps[2] = {{.name = "bulb", .intensity = 10.0f},
+                                  {.name = "spot",
+                                   .kind = LUMEL_SPOT,
+                                   .color = {1, 0, 0},
+                                   .intensity = 5.0f,
+                                   .position = {0, 0.5f, 0},
+                                   .radius = 0.05f}};
+    const float luminance[3] = {5.0f, 5.0f, 5.0f};
+    const lumel_sky sky{.width = 1, .height = 1, .luminance = luminance};
+    lumel_content content = cube.arrays();
+    content.light_count = 2;
+    content.lights = lamps;
+    content.sky = &sky;
+    const ScenePointer scene = scene_of(content);
+    const BakedPointer baked = baked_of(scene.get(), {.size = kSize, .shots = 12});
+    SceneContent same = cube.content;
+    same.lights = {{.name = "bulb", .intensity = 10.0f},
+                   {.kind = Light::Kind::spot,
+                    .name = "spot",
+                    .color = {1, 0, 0},
+                    .intensity = 5.0f,
+                    .position = {0, 0.5f, 0},
+                    .radius = 0.05f}};
+    same.sky = {.width = 1, .height = 1, .luminance = {{5.0f, 5.0f, 5.0f}}};
+    const Baked wanted = bake(Scene(same), {.atlas = {.size = kSize}, .shots = 12});
+    EXPECT_TRUE(
+        std::ranges::equal(wanted.map.rgba, std::span(baked->map.rgba, wanted.map.rgba.size())));
+}
+
+TEST(LumelC, StopsWhenProgressSaysSo)
+{
+    const Cube cube;
+    const ScenePointer scene = scene_of(cube.arrays());
+    int calls = 0;
+    lumel_settings settings{.size = kSize};
+    settings.user = &calls;
+    settings.progress = [](const lumel_progress* now, void* user) {
+        EXPECT_NE(now->stage[0], '\0');
+        ++*static_cast<int*>(user);
+        return 0;
+    };
+    const lumel_baked* baked = nullptr;
+    expect_refusal(lumel_bake(nullptr, scene.get(), &settings, &baked), LUMEL_STOPPED, {});
+    EXPECT_EQ(baked, nullptr);
+    EXPECT_GT(calls, 0);
+}
+
+TEST(LumelC, TellsWarnings)
+{
+    Cube cube;
+    cube.materials[0].base_color[0] = 1.0f;
+    std::vector<std::string> heard;
+    lumel_on_warning(
+        [](const char* message, void* user) {
+            static_cast<std::vector<std::string>*>(user)->emplace_back(message);
+        },
+        &heard);
+    const ScenePointer scene = scene_of(cube.arrays());
+    lumel_on_warning(nullptr, nullptr);
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_NE(heard[0].find("white"), std::string::npos);
+}
+
+TEST(LumelC, RefusesWithASentence)
+{
+    Cube cube;
+    const lumel_content content = cube.arrays();
+    lumel_scene* scene = nullptr;
+    expect_refusal(lumel_make_scene(nullptr, &scene), LUMEL_BAD_INPUT, {"content", "NULL"});
+    expect_refusal(lumel_load_scene("nowhere.glb", &scene), LUMEL_BAD_INPUT, {"nowhere.glb"});
+    cube.of_triangle[3] = 2;
+    expect_refusal(lumel_make_scene(&content, &scene), LUMEL_BAD_INPUT,
+                   {"meshes[0].triangle_materials[3]", "2 materials"});
+    cube.of_triangle[3] = 0;
+    cube.mesh.vertex_count = 4;
+    expect_refusal(lumel_make_scene(&content, &scene), LUMEL_BAD_INPUT, {"meshes[0].indices[6]"});
+    cube.mesh.vertex_count = 24;
+    cube.mesh.positions = nullptr;
+    expect_refusal(lumel_make_scene(&content, &scene), LUMEL_BAD_INPUT, {"meshes[0].positions"});
+    cube.instance.mesh = nullptr;
+    expect_refusal(lumel_make_scene(&content, &scene), LUMEL_BAD_INPUT, {"instances[0].mesh"});
+    EXPECT_EQ(scene, nullptr);
+
+    const Cube whole;
+    const ScenePointer made = scene_of(whole.arrays());
+    const lumel_baked* baked = nullptr;
+    const auto refused = [&](const lumel_settings& settings,
+                             std::initializer_list<const char*> words) {
+        expect_refusal(lumel_bake(nullptr, made.get(), &settings, &baked), LUMEL_BAD_INPUT, words);
+    };
+    refused({.method = "mc"}, {"mc", "method"});
+    refused({.method = "stochastic"}, {"stochastic", "Device"});
+    refused({.sides = 9}, {"settings.sides"});
+    refused({.error = -1.0}, {"error"});
+    const char* const odd[] = {"filter", nullptr};
+    refused({.options = odd}, {"filter", "NULL"});
+    EXPECT_EQ(baked, nullptr);
+    expect_refusal(lumel_bake(nullptr, nullptr, nullptr, &baked), LUMEL_BAD_INPUT, {"scene"});
+    expect_refusal(lumel_open_device("no such device", nullptr), LUMEL_BAD_INPUT, {"device"});
+    lumel_free_scene(nullptr);
+    lumel_free_baked(nullptr);
+    lumel_close_device(nullptr);
+}
+
+TEST(LumelC, TakesOptionsOfMethodsOnADevice)
+{
+    lumel_device* opened = nullptr;
+    ASSERT_EQ(lumel_open_device(nullptr, &opened), LUMEL_OK) << lumel_message();
+    const Cube cube;
+    const ScenePointer scene = scene_of(cube.arrays());
+    const char* const options[] = {"hemicube", "64", nullptr};
+    const lumel_settings settings{.size = kSize,
+                                  .method = "stochastic",
+                                  .options = options,
+                                  .directional = LUMEL_SH2,
+                                  .shots = 64};
+    const lumel_baked* baked = nullptr;
+    EXPECT_EQ(lumel_bake(opened, scene.get(), &settings, &baked), LUMEL_OK) << lumel_message();
+    ASSERT_NE(baked, nullptr);
+    EXPECT_EQ(baked->directional_count, 9u);
+    EXPECT_EQ(baked->directional[8].width, kSize);
+    lumel_free_baked(baked);
+    lumel_close_device(opened);
+}
+
+}  // namespace
+}  // namespace lumel::v0
