@@ -45,7 +45,7 @@ install(DIRECTORY ${LUMEL_SHARE}/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR} COMPO
 string(TOLOWER "${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}" LUMEL_PLATFORM)
 set(LUMEL_BUNDLE_NAME lumel-${PROJECT_VERSION}-${LUMEL_PLATFORM})
 # Opened while the program runs, see src/solve/matrix/blas.cpp.
-find_library(LUMEL_OPENBLAS libopenblas.so.0 REQUIRED)
+find_library(LUMEL_OPENBLAS libopenblas.so.0 HINTS ${OPENBLAS_LIBRARY_DIRS})
 add_custom_target(bundle
     COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DNAME=${LUMEL_BUNDLE_NAME} -DOPENED=${LUMEL_OPENBLAS}
             -P ${PROJECT_SOURCE_DIR}/cmake/MakeBundle.cmake

@@ -118,8 +118,9 @@ int main(int count, char** arguments)
     const float middle[3] = {0, 0, 0};
     lumel_probe probe;
     check(lumel_probes(baked, middle, 1, 0, &probe));
-    printf("mean radiance in the middle: %.1f %.1f %.1f cd/m2\n", probe.coefficients[0][0] * 0.2821,
-           probe.coefficients[0][1] * 0.2821, probe.coefficients[0][2] * 0.2821);
+    const double y00 = 0.2821; /* harmonic 0: 1 / sqrt(4 pi) */
+    printf("mean radiance in the middle: %.1f %.1f %.1f cd/m2\n", y00 * probe.coefficients[0][0],
+           y00 * probe.coefficients[0][1], y00 * probe.coefficients[0][2]);
 
     char path[4096];
     snprintf(path, sizeof path, "%s/room.ppm", folder);

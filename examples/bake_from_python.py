@@ -38,7 +38,7 @@ class Baked(ctypes.Structure):
                 ("pages", c_void_p), ("note_count", c_uint32), ("notes", POINTER(c_char_p)),
                 ("texels_per_metre", c_float), ("error", c_double), ("eye_error", c_double),
                 ("visible_noise", c_double), ("shots", c_uint64), ("seconds", c_double),
-                ("interrupted", c_int)]
+                ("interrupted", c_int), ("internal", c_void_p)]
 
 
 def load_library(path):

@@ -18,11 +18,18 @@
 
 namespace lumel {
 
+/// How a command shows its progress on stderr.
+enum class ProgressStyle {
+    automatic,  ///< a progress bar if it is a terminal
+    json,       ///< lines of JSON, for other programs
+    none,
+};
+
 /// Output of a command while it runs.
 struct Talk {
-    bool quiet = false;    ///< nothing but warnings and errors
-    bool json = false;     ///< stdout carries one JSON document and nothing else
-    bool progress = true;  ///< a progress line, where stderr is a terminal
+    bool quiet = false;  ///< nothing but warnings and errors
+    bool json = false;   ///< stdout carries one JSON document and nothing else
+    ProgressStyle progress = ProgressStyle::automatic;
     bool verbose = false;  ///< on stderr what becomes known as it does, a line each
 };
 

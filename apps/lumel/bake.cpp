@@ -12,7 +12,6 @@
 #include "results/page/page.h"
 
 namespace lumel {
-
 int run(const BakeArguments& arguments)
 {
     if (arguments.page)
@@ -37,7 +36,10 @@ int run(const BakeArguments& arguments)
              summary.visible_noise.worst_chart > kGood.visible_noise))
             error += "; --quality good goes on";
         return Conclusion{summary.report,
-                          fmt::format("{}: {} {} in {:.1f} s{}", arguments.folder, summary.shots,
+                          fmt::format("{0}: {1} {2} in {3:.1f} s{4}\n"
+                                      "{0}/scene-baked.glb is for any glTF viewer; "
+                                      "{0}/scene.glb, with the lightmap, for three.js and engines",
+                                      arguments.folder, summary.shots,
                                       method_of(arguments.options.solver.method).shots,
                                       summary.seconds, error),
                           summary.interrupted};

@@ -53,7 +53,10 @@ void add_file_options(Command& command, BakeArguments& bake)
     add_preview_option(command, bake.options.preview_width);
     command.add(
         kPictureGroup,
-        {{"--html", "", "Also write report.html, a page to explore the bake, like lumel report",
+        {{"--exposure", "F",
+          "Factor from cd/m2 to brightness in preview.png, lightmap.png and scene-baked.glb",
+          &bake.options.exposure, "fitted to what is lit", positive()},
+         {"--html", "", "Also write report.html, a page to explore the bake, like lumel report",
           &bake.page}});
 }
 

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "progress_bar.h"
+#include "progress_lines.h"
 
 namespace lumel {
 
@@ -17,7 +18,8 @@ int do_long_work(const Talk& talk, int batch,
 {
     watch_interrupts();
     set_quiet(talk.quiet || talk.json);
-    ProgressBar bar(talk.progress && !talk.quiet, batch);
+    ProgressBar bar(talk.progress == ProgressStyle::automatic && !talk.quiet, batch);
+    ProgressLines lines;
     const double start = wall_seconds();
     const Conclusion conclusion = work([&](const BakeProgress& progress) {
         if (talk.verbose && !progress.note.empty()) {
@@ -26,6 +28,8 @@ int do_long_work(const Talk& talk, int batch,
                        progress.note);
         }
         bar.show(progress);
+        if (talk.progress == ProgressStyle::json)
+            lines.show(progress);
         return !interrupted();
     });
     bar.clear();

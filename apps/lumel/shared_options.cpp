@@ -25,6 +25,9 @@ const Choices<LightmapFormat> kLightmapFormats = {{"ktx2", LightmapFormat::ktx2}
                                                   {"png", LightmapFormat::png},
                                                   {"none", LightmapFormat::none}};
 const Choices<Quality> kQualities = {{"draft", kDraft}, {"good", kGood}, {"fine", kFine}};
+const Choices<ProgressStyle> kProgressStyles = {{"auto", ProgressStyle::automatic},
+                                                {"json", ProgressStyle::json},
+                                                {"none", ProgressStyle::none}};
 const Choices<Sides> kSides = {{"auto", Sides::automatic},
                                {"both", Sides::both},
                                {"brighter", Sides::brighter},
@@ -112,10 +115,11 @@ void add_light_options(Command& command, LightOptions& lights)
 {
     command.add(
         kLightGroup,
-        {{"--sky", "FILE|R,G,B|overcast",
+        {{"--sky", "FILE|R,G,B|overcast|cie:N",
           "Sky: an .exr or .hdr panorama in cd/m2 with +x at its centre, a uniform colour in "
-          "cd/m2, or the CIE overcast sky with 10,000 lx on an open horizontal plane; overcast:LUX "
-          "sets another value",
+          "cd/m2, or the CIE overcast or standard sky N, 1 to 16, with 10,000 lx on an open "
+          "horizontal plane; overcast:LUX and cie:N:LUX set another value, cie:N@AZIMUTH,ELEVATION "
+          "the sun that the sky depends on, which else is that of --sun",
           [&lights](const std::string& text) { set_sky(lights, text); }},
          {"--sky-scale", "F", "Scale factor for sky radiance", &lights.sky_scale, "1", positive()},
          {"--sky-rotation", "DEGREES",
@@ -161,9 +165,13 @@ void add_talk_options(Command& command, Talk& talk)
           .excludes = "--quiet"}});
     add_json_flag(command, talk.json);
     command.add(kProgramGroup,
-                {{"--no-progress", "",
-                  "Hide the progress line, which is shown only if stderr is a terminal",
-                  [&talk] { talk.progress = false; }}});
+                {choice(talk.progress, kProgressStyles,
+                        {"--progress",
+                         "",
+                         "Progress on stderr: a bar if it is a terminal (auto); a line of JSON for "
+                         "other programs, ten times a second (json); or none",
+                         {},
+                         "auto"})});
 }
 
 void add_stop_options(Command& command, SolverOptions& solver)

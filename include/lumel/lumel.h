@@ -94,9 +94,10 @@ private:
 using WarningFunction = std::function<void(const std::string&)>;
 
 /// Sets the function that receives all messages of this process: what files lack, what was
-/// repaired, what a bake should have; each once. They are in Scene::warnings(), Baked::notes and
-/// the like as well. It runs on the thread of the call that it concerns, before that returns, and
-/// must not throw. Empty: none. Thread-safe.
+/// repaired, what a bake should have. Scene::warnings(), Baked::notes and the like have those of
+/// their own. It runs on the thread of the call that it concerns, before that returns; it must
+/// neither throw nor call this. Empty: none. Once this has returned, the former function is not
+/// called any more. Thread-safe.
 LUMEL_API void on_warning(WarningFunction function);
 
 // ---------------------------------------------------------------------------------------- device
@@ -171,7 +172,7 @@ struct Primitive {
     std::vector<Vec3> normals;    ///< [V], or empty for flat shading
     std::vector<Vec2> texcoords;  ///< [V], or empty
     std::vector<Vec2> lightmap;  ///< [V] your own layout in 0…1, used unless it overlaps; or empty
-    std::vector<Vec4> colors;    ///< [V] linear, multiply the base colour; or empty
+    std::vector<Vec4> colors;    ///< [V] linear, 0…1, multiply the base colour; or empty
     std::vector<std::uint32_t> indices;  ///< [3T]
     std::uint32_t material = 0;          ///< index into SceneContent::materials
 };
@@ -220,11 +221,19 @@ struct SceneContent {
     Sky sky;
 };
 
+/// A standard sky of the CIE (ISO 15469): 1 to 4 are overcast, 5 is uniform, 6 to 10 are partly
+/// cloudy, 11 to 15 clear; 16 is the traditional overcast sky.
+struct CieSky {
+    int type = 16;
+    float lux = 10'000.0f;  ///< illuminance of an open horizontal plane [lx]
+};
+
 /// Sky and sun for Scene::add_daylight. The first of these that is given becomes the sky: the file,
-/// the luminance, the clear sky of the sun, the scene's own.
+/// the luminance, the sky of the CIE, the clear sky of the sun, the scene's own.
 struct Daylight {
     std::string sky_file;               ///< .exr or .hdr, latitude-longitude [cd/m²]; or empty
     std::optional<Vec3> sky_luminance;  ///< uniform sky [cd/m²]
+    std::optional<CieSky> cie;          ///< needs the sun, except types 1, 3, 5 and 16
     /// Sun of a clear day.
     struct Sun {
         double azimuth = 0.0;    ///< clockwise from north (-z), seen from above: east (+x) is π/2
@@ -312,7 +321,8 @@ struct Surface {
     std::uint32_t primitive = 0;               ///< index in the source mesh or in that of the file
     std::vector<std::uint32_t> source_vertex;  ///< [V] the source primitive's vertex
     std::vector<Vec2> lightmap;                ///< [V] coordinates in 0…1, (0, 0) at the top left
-    std::vector<std::uint32_t> indices;        ///< [3T] triangles in the primitive's order
+    /// [3T] triangles in the primitive's order, without those of zero area
+    std::vector<std::uint32_t> indices;
     /// True for the back of the preceding surface, if any of it has texels of its own: the same
     /// triangles with reversed winding; negate the normals. Draw both with back-face culling, and
     /// double-sided primitives without a back without culling.
@@ -414,19 +424,19 @@ struct Baked {
     bool relightable = false;        ///< Relight can use it: method "matrix", Parts::all
     std::vector<std::string> notes;  ///< messages for the user
     /// For Relight, probes(), write_scene() and write_baked_scene(): the scene with its light,
-    /// about 200 bytes per lumel and the scene's textures and triangles. Reset it to free the
-    /// memory.
+    /// about 300 bytes per lumel and the scene's file, textures and triangles. Reset it to free
+    /// them.
     std::shared_ptr<const BakedSolution> solution;
 };
 
-/// Builds the atlas and solves for the light; returns the same map as `lumel bake` writes. Throws
-/// Error{input} if a setting is out of range, no limit ends the bake, or no surface can be lit;
-/// Error{device}, also if memory does not suffice: the Device remains usable if that is known
-/// before the solve.
+/// Builds the atlas and solves for the light; returns the same map as `lumel bake` writes on the
+/// same device. Throws Error{input} if a setting is out of range, no limit ends the bake, no
+/// surface can be lit, or a method lacks its library (OpenBLAS for "matrix"); Error{device}, also
+/// if memory does not suffice: the Device remains usable if that is known before the solve.
 LUMEL_API Baked bake(const Device& device, const Scene& scene, const BakeSettings& settings = {},
                      const ProgressFunction& progress = {});
-/// The same on the CPU, without Vulkan. Throws Error{input} unless the method is "links", and for
-/// directional maps.
+/// Bakes on the CPU, without Vulkan. Throws Error{input} also for methods other than "links", for
+/// rays of a device, and for directional maps.
 LUMEL_API Baked bake(const Scene& scene, const BakeSettings& settings = {},
                      const ProgressFunction& progress = {});
 
@@ -438,8 +448,9 @@ struct Probe {
 };
 
 /// Light at `places` [m] in a bake of all light; runs on the CPU. samples: rays per probe, more
-/// where noise is above 0.5 % of band 0. Throws Error{input} if the bake has no solution, or of one
-/// part of the light only, or a place is not finite.
+/// where noise is above 0.5 % of band 0, at most 2²⁰. Many places in one call are faster. Throws
+/// Error{input} if the bake has no solution, or of one part of the light only, or a place is not
+/// finite.
 LUMEL_API std::vector<Probe> probes(const Baked& baked, const std::vector<Vec3>& places,
                                     std::uint32_t samples = 4096);
 
@@ -451,15 +462,17 @@ enum class LightmapFormat {
     none,    ///< no lightmap inside, only its coordinates
 };
 
-/// Writes the scene with Baked::map, as `lumel bake` writes scene.glb: all that the scene's file
-/// has, with the lightmap bound by MOZ_lightmap; or a file of the scene made in memory, with node i
-/// for instance i. Lamps are baked and therefore hidden, except in a bake of indirect light. A
-/// scene without camera gets one. Throws Error{input} if the bake has no solution, its map has
-/// another size, or the scene's file has changed; Error{output}.
+/// Writes the scene with Baked::map to a .glb file, as `lumel bake` writes scene.glb: all that the
+/// scene's file had when it was read, with the lightmap bound by MOZ_lightmap. Of a scene made in
+/// memory, meshes, materials, textures and lamps, with node i for instance i, but not the sky.
+/// Lamps are baked and therefore hidden, except in a bake of indirect light. A scene without camera
+/// gets one. Viewers may refuse transforms with shear. Throws Error{input} if the bake has no
+/// solution or its map has another size; Error{output}.
 LUMEL_API void write_scene(const std::string& path, const Baked& baked,
                            LightmapFormat format = LightmapFormat::ktx2);
-/// Writes the scene as `lumel bake` writes scene-baked.glb, which any viewer shows lit: the light
-/// of the bake in 8-bit textures of at most `size` texels a side. Throws as write_scene().
+/// Writes the scene to a .glb file that any viewer shows lit, as `lumel bake` writes
+/// scene-baked.glb: the light of the solution, whatever Baked::map holds, in 8-bit textures of at
+/// most `size` texels a side. Throws as write_scene().
 LUMEL_API void write_baked_scene(const std::string& path, const Baked& baked, int size = 2048);
 
 // ------------------------------------------------------------------------------------------ live

@@ -1,15 +1,20 @@
+/* clang-format off */
 /* Lumel for hosts in C, and for other languages that call C: scenes in memory or from files, baked
  * into lightmaps, directional maps, light probes and glTF files. lumel/lumel.h is the interface for
  * C++; it also has light that stays current while things move.
  *
- * Units    As in lumel/lumel.h: metres; right-handed, +y up; radians; linear Rec. 709; irradiance
- * in lx, luminance in cd/m², intensity of lamps in cd. Zeros    A structure of zeros asks for the
- * defaults, and a pointer may be NULL where that is said. Memory   Arguments are copied during the
- * call. What a result points to belongs to it. Errors   Functions return LUMEL_OK or what failed;
- * lumel_message() is the sentence for the user. Results are not written then. Threads  No call may
- * overlap another that uses the same device, scene or bake. Calls block until they are done and use
- * all CPU cores. Callbacks run on the thread of the call.
+ * Units    As in lumel/lumel.h: metres; right-handed, +y up; radians; linear Rec. 709; irradiance in
+ *          lx, luminance in cd/m², intensity of lamps in cd. Text is UTF-8.
+ * Zeros    lumel_settings of zeros asks for the defaults. Elsewhere a comment says what 0 or NULL
+ *          means, where it is not plain.
+ * Memory   Arguments are copied during the call. What a result points to belongs to it.
+ * Errors   Functions return LUMEL_OK or what failed, and lumel_message() has the sentence for the
+ *          user. On failure, outputs are left unchanged.
+ * Threads  No call may overlap another that uses the same device, scene or bake. Calls block until
+ *          they are done and use all CPU cores. Callbacks run on the thread of the call; they must
+ *          neither throw nor jump out.
  */
+/* clang-format on */
 #ifndef LUMEL_LUMEL_C_H
 #define LUMEL_LUMEL_C_H
 
@@ -23,22 +28,24 @@ extern "C" {
 
 typedef enum lumel_result {
     LUMEL_OK = 0,
-    LUMEL_BAD_INPUT = 1,     /* invalid argument, file or scene */
-    LUMEL_BAD_DEVICE = 2,    /* no usable device, or it failed or ran out of memory */
+    LUMEL_BAD_INPUT = 1, /* invalid argument, file or scene */
+    LUMEL_BAD_DEVICE =
+        2, /* no usable device, it failed, or the memory of the machine does not suffice */
     LUMEL_BAD_OUTPUT = 3,    /* a file cannot be written */
     LUMEL_STOPPED = 4,       /* progress ended the bake before it had a solution */
-    LUMEL_OUT_OF_MEMORY = 5, /* host memory */
+    LUMEL_OUT_OF_MEMORY = 5, /* an allocation failed */
     LUMEL_FAILED = 6         /* a fault of the library */
 } lumel_result;
 
-/* What the last call of this thread that failed has to say: location, fault and remedy; "" if none
- * failed. Valid until the thread's next call. */
+/* Message of this thread's last failed call: location, fault and remedy; "" if none failed. Valid
+ * until the thread's next call. */
 LUMEL_C_API const char* lumel_message(void);
 
 /* 10000 × major + 100 × minor + patch, of the library. */
 LUMEL_C_API int lumel_version(void);
 
-/* Sets the function that receives all messages for the user; NULL: none. See lumel::on_warning. */
+/* Sets the function that receives all messages for the user in this process; NULL: none. Once this
+ * has returned, the former function is not called any more. The function must not call this. */
 typedef void (*lumel_warning_function)(const char* message, void* user);
 LUMEL_C_API void lumel_on_warning(lumel_warning_function function, void* user);
 
@@ -52,8 +59,8 @@ typedef struct lumel_texture {
 enum { LUMEL_OPAQUE = 0, LUMEL_MASK = 1, LUMEL_BLEND = 2 };
 
 typedef struct lumel_material {
-    const char* name;                        /* or NULL */
-    float base_color[4];                     /* 0…1; RGB is the diffuse reflectance ρ */
+    const char* name;    /* or NULL */
+    float base_color[4]; /* 0…1; RGB is the diffuse reflectance ρ, zeros: black */
     const lumel_texture* base_color_texture; /* multiplies base_color; or NULL */
     float emitted[3];                        /* luminance [cd/m²] */
     const lumel_texture* emitted_texture;    /* multiplies emitted; or NULL */
@@ -71,7 +78,7 @@ typedef struct lumel_mesh {
     const float* normals;   /* [V][3], or NULL for flat shading */
     const float* texcoords; /* [V][2] of textures, (0, 0) at the top left; or NULL */
     const float* lightmap;  /* [V][2] your own layout in 0…1, used unless it overlaps; or NULL */
-    const float* colors;    /* [V][4] linear, multiply base_color; or NULL */
+    const float* colors;    /* [V][4] linear, 0…1, multiply base_color; or NULL */
     uint32_t triangle_count;
     const uint32_t* indices; /* [T][3] */
     uint32_t material_count;
@@ -83,7 +90,8 @@ typedef struct lumel_mesh {
 typedef struct lumel_instance {
     const char* name; /* or NULL */
     const lumel_mesh* mesh;
-    float transform[16]; /* mesh to world, column by column; zeros: the identity */
+    float transform[16]; /* mesh to world, column by column: [12…14] is the place; zeros: the
+                            identity */
 } lumel_instance;
 
 enum { LUMEL_POINT = 0, LUMEL_SPOT = 1, LUMEL_DIRECTIONAL = 2 };
@@ -117,18 +125,20 @@ typedef struct lumel_content {
 
 typedef struct lumel_scene lumel_scene;
 
-/* Makes a scene of arrays. Messages number meshes, materials and textures as instances first refer
- * to them. Reflectances are capped at 0.95, with a warning. */
+/* Makes a scene from arrays. Messages number meshes, materials and textures as instances first
+ * refer to them. Reflectances are capped at 0.95, with a warning. */
 LUMEL_C_API lumel_result lumel_make_scene(const lumel_content* content, lumel_scene** scene);
-/* Reads a glTF 2.0 file (.gltf or .glb). */
+/* Reads a glTF 2.0 file (.gltf or .glb). Its materials are diffuse: method "glossy" needs C++. */
 LUMEL_C_API lumel_result lumel_load_scene(const char* path, lumel_scene** scene);
 LUMEL_C_API void lumel_free_scene(lumel_scene* scene); /* NULL: nothing */
 
-/* Sky and sun; the first of these that is given becomes the sky: the file, the luminance, the clear
- * sky of the sun. The sun becomes a light. */
+/* Sky and sun; the first of these that is given becomes the sky: the file, the luminance, the sky
+ * of the CIE, the clear sky of the sun. The sun becomes a light. */
 typedef struct lumel_daylight {
     const char* sky_file;       /* .exr or .hdr [cd/m²]; or NULL */
     const float* sky_luminance; /* [3] uniform sky [cd/m²]; or NULL */
+    int cie_sky;                /* 1…16: standard sky of the CIE, 16 is overcast; 0: none */
+    float cie_lux;              /* its illuminance of an open horizontal plane [lx]; 0: 10,000 */
     int has_sun;                /* 0 or 1: of a clear day */
     double sun_azimuth;         /* clockwise from north (-z), seen from above */
     double sun_elevation;       /* above the horizon */
@@ -142,8 +152,8 @@ LUMEL_C_API lumel_result lumel_add_daylight(lumel_scene* scene, const lumel_dayl
 
 typedef struct lumel_device lumel_device;
 
-/* Opens a Vulkan device, which only methods other than "links" and directional maps need. pick: its
- * number or part of its name as `lumel devices` lists them; NULL: the best. */
+/* Opens a Vulkan device. Needed for directional maps and for methods other than "links". pick: its
+ * number or part of its name, as the program's `lumel devices` lists them; NULL: the best. */
 LUMEL_C_API lumel_result lumel_open_device(const char* pick, lumel_device** device);
 LUMEL_C_API void lumel_close_device(lumel_device* device); /* NULL: nothing */
 
@@ -229,7 +239,7 @@ typedef struct lumel_surface {
     const float* lightmap;         /* [V][2] coordinates in 0…1, (0, 0) at the top left */
     const uint16_t* page;          /* [V] index into pages, or NULL if there is one */
     uint32_t triangle_count;
-    const uint32_t* indices; /* [T][3] into these vertices */
+    const uint32_t* indices; /* [T][3] into these vertices; without triangles of zero area */
     float texels_per_metre;
 } lumel_surface;
 
@@ -248,7 +258,8 @@ typedef struct lumel_baked {
     double error, eye_error, visible_noise; /* estimated; < 0: unknown */
     uint64_t shots;
     double seconds;
-    int interrupted; /* 1: ended by progress */
+    int interrupted;      /* 1: ended by progress */
+    const void* internal; /* the library's own */
 } lumel_baked;
 
 /* Bakes a scene. device: NULL for method "links" on the CPU. settings: NULL for the defaults. */
@@ -263,7 +274,8 @@ typedef struct lumel_probe {
     int inside;   /* 1: inside an object, no light */
 } lumel_probe;
 
-/* Light at places [count][3] [m], in a bake of all light. samples: rays per probe; 0: 4096. */
+/* Light at places [count][3] [m], in a bake of all light; many in one call are faster. samples:
+ * rays per probe, at most 2²⁰; 0: 4096. */
 LUMEL_C_API lumel_result lumel_probes(const lumel_baked* baked, const float* places, uint32_t count,
                                       uint32_t samples, lumel_probe* probes);
 
@@ -274,10 +286,10 @@ enum {
     LUMEL_NO_MAP = 3  /* the coordinates alone */
 };
 
-/* Writes the scene with its lightmap, as `lumel bake` writes scene.glb. format: LUMEL_KTX2, … */
+/* Writes a .glb of the scene with its lightmap; see lumel::write_scene. format: LUMEL_KTX2, … */
 LUMEL_C_API lumel_result lumel_write_scene(const lumel_baked* baked, const char* path, int format);
-/* Writes the scene with its light in its textures, as `lumel bake` writes scene-baked.glb. size:
- * maximum side of the texture [texels]; 0: 2048. */
+/* Writes a .glb with the light in the scene's textures, which any viewer shows; see
+ * lumel::write_baked_scene. size: maximum side of the texture [texels]; 0: 2048. */
 LUMEL_C_API lumel_result lumel_write_baked_scene(const lumel_baked* baked, const char* path,
                                                  int size);
 

@@ -9,6 +9,7 @@
 #include "api/translate.h"
 #include "api/values.h"
 #include "api/warnings.h"
+#include "atlas/prepare/solve_scene.h"
 #include "base/core/log.h"
 #include "jobs/bake/advice.h"
 #include "jobs/bake/bake.h"
@@ -97,6 +98,7 @@ BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
     if (!solver.has_target() && solver.max_seconds == 0.0 && solver.max_shots == 0 && !has_progress)
         refuse_setting("error", "nothing would end the bake: set an error, seconds or shots");
     check_limits(solver);
+    open_libraries(options);
     return options;
 }
 
@@ -109,6 +111,9 @@ void check_materials(const MethodInfo& method, const lumel::Scene& scene)
 
 void check_device(const BakeOptions& options)
 {
+    const auto* links = std::get_if<LinksOptions>(&options.solver.method);
+    if (links && links->rays != Rays::automatic && links->rays != Rays::host)
+        refuse_setting("options[\"rays\"]", "needs a Device for rays that are not \"host\"");
     if (options.directional != lumel::Directional::none)
         refuse_setting("directional", "needs a Device");
     if (needs_world(options))
@@ -157,15 +162,23 @@ void reduce(Setting& setting)
     setting.near = {};
 }
 
-/// device: null if there is none.
-Baked bake_scene(const gpu::Device* device, const SceneImpl& scene, BakeOptions options,
-                 const lumel::ProgressFunction& progress)
+/// What the user should know of the scene and of its bake.
+std::vector<std::string> notes_of(const LogCapture& log, const SceneImpl& scene)
 {
-    const LogCapture log;
+    return told(log.messages(), scene.scene.warnings);
+}
+
+/// device: null if there is none. Logs what the user should know.
+Baked baked_scene(const gpu::Device* device, const SceneImpl& given, BakeOptions options,
+                  const lumel::ProgressFunction& progress)
+{
     Stages stages(progress);
+    lumel::Scene scene = given.scene;
+    warn_if_dark(scene);
     const MemoryLimits limits = memory_limits(options, device);
-    check_memory(scene.scene, options, limits);
-    const auto kept = std::make_shared<BakedSolution>(scene, device, options, stages);
+    check_memory(scene, options, limits);
+    const auto kept =
+        std::make_shared<BakedSolution>(std::move(scene), given.document, device, options, stages);
     const SolveScene& prepared = kept->setting.prepared;
     options.solver.max_bytes = bytes_for_links(prepared, options, limits);
     std::unique_ptr<Solution> solution =
@@ -194,9 +207,22 @@ Baked bake_scene(const gpu::Device* device, const SceneImpl& scene, BakeOptions 
     baked.solution = kept;
     if (device)
         device->check_validation();
-    baked.notes = told(log.messages(), scene.scene.warnings);
     baked.seconds = stages.seconds();
     return baked;
+}
+
+Baked bake_scene(const gpu::Device* device, const SceneImpl& scene, const BakeOptions& options,
+                 const lumel::ProgressFunction& progress)
+{
+    const LogCapture log;
+    try {
+        Baked baked = baked_scene(device, scene, options, progress);
+        baked.notes = notes_of(log, scene);
+        return baked;
+    } catch (...) {
+        notes_of(log, scene);
+        throw;
+    }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "api/scene.h"
@@ -14,17 +16,17 @@ namespace lumel::v0 {
 /// What a bake leaves for later: the scene made ready, and its light.
 struct BakedSolution {
     /// Makes the scene ready. device: null if there is none.
-    BakedSolution(const SceneImpl& scene, const gpu::Device* device, const BakeOptions& options,
-                  Stages& stages)
-        : setting(scene.scene, device, options, stages),
-          is_of_file(scene.is_of_file),
+    BakedSolution(lumel::Scene scene, std::shared_ptr<const GltfDocument> file,
+                  const gpu::Device* device, const BakeOptions& options, Stages& stages)
+        : setting(std::move(scene), device, options, stages),
+          document(std::move(file)),
           seed(seed_of(options.solver.method)),
           parts(options.parts)
     {
     }
 
     Setting setting;
-    bool is_of_file;  ///< the scene was read from a file
+    std::shared_ptr<const GltfDocument> document;  ///< see SceneImpl
     std::uint32_t seed;
     lumel::Parts parts;
     std::vector<glm::vec3> irradiance;        ///< [N] [lx]

@@ -1,8 +1,11 @@
 // Bakes of lumel_c.h.
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "api/c_calls.h"
@@ -17,19 +20,41 @@ namespace {
 
 thread_local std::string last_message;
 
-/// A result with what it points to.
-struct CBaked : lumel_baked {
+/// The message with names of lumel_c.h in place of those of lumel.h.
+std::string in_c(std::string message)
+{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kNames = {{
+        {"BakeSettings::", "settings."},
+        {"AtlasSettings::", "settings."},
+        {"Daylight::", "daylight."},
+        {"Device::Device", "lumel_open_device"},
+        {"Scene::add_daylight", "lumel_add_daylight"},
+        {"Parts::all", "LUMEL_ALL_LIGHT"},
+        {"write_scene()", "lumel_write_scene()"},
+        {"needs a Device", "needs a device"},
+    }};
+    for (const auto& [from, to] : kNames)
+        for (std::size_t at = message.find(from); at != message.npos;
+             at = message.find(from, at + to.size()))
+            message.replace(at, from.size(), to);
+    return message;
+}
+
+/// A result and the arrays that it points to.
+struct CBaked {
+    lumel_baked shown{};
     Baked baked;
-    std::vector<lumel_map> layers;
-    std::vector<lumel_surface> parts;
-    std::vector<lumel_page> squares;
-    std::vector<const char*> sentences;
+    std::vector<lumel_map> directional;
+    std::vector<lumel_surface> surfaces;
+    std::vector<lumel_page> pages;
+    std::vector<const char*> notes;
 };
 
 const Baked& baked_of(const lumel_baked* baked)
 {
     require(baked, "baked");
-    return static_cast<const CBaked*>(baked)->baked;
+    require(baked->internal, "baked.internal");
+    return static_cast<const CBaked*>(baked->internal)->baked;
 }
 
 [[noreturn]] void refuse_value(const char* setting)
@@ -175,30 +200,33 @@ std::unique_ptr<CBaked> result_of(Baked&& given, const lumel_scene& scene)
     result->baked = std::move(given);
     Baked& baked = result->baked;
     name_vertices(baked.surfaces, scene);
-    for (const Map& layer : baked.directional)
-        result->layers.push_back(view_of(layer));
+    for (std::string& note : baked.notes)
+        note = in_c(std::move(note));
+    for (const Map& map : baked.directional)
+        result->directional.push_back(view_of(map));
     for (const Surface& surface : baked.surfaces)
-        result->parts.push_back(view_of(surface));
+        result->surfaces.push_back(view_of(surface));
     for (const Page& page : baked.pages)
-        result->squares.push_back({page.x, page.y, page.side});
+        result->pages.push_back({page.x, page.y, page.side});
     for (const std::string& note : baked.notes)
-        result->sentences.push_back(note.c_str());
-    static_cast<lumel_baked&>(*result) = {.map = view_of(baked.map),
-                                          .directional_count = std::uint32_t(result->layers.size()),
-                                          .directional = result->layers.data(),
-                                          .surface_count = std::uint32_t(result->parts.size()),
-                                          .surfaces = result->parts.data(),
-                                          .page_count = std::uint32_t(result->squares.size()),
-                                          .pages = result->squares.data(),
-                                          .note_count = std::uint32_t(result->sentences.size()),
-                                          .notes = result->sentences.data(),
-                                          .texels_per_metre = baked.texels_per_metre,
-                                          .error = baked.error,
-                                          .eye_error = baked.eye_error,
-                                          .visible_noise = baked.visible_noise,
-                                          .shots = baked.shots,
-                                          .seconds = baked.seconds,
-                                          .interrupted = baked.interrupted ? 1 : 0};
+        result->notes.push_back(note.c_str());
+    result->shown = {.map = view_of(baked.map),
+                     .directional_count = std::uint32_t(result->directional.size()),
+                     .directional = result->directional.data(),
+                     .surface_count = std::uint32_t(result->surfaces.size()),
+                     .surfaces = result->surfaces.data(),
+                     .page_count = std::uint32_t(result->pages.size()),
+                     .pages = result->pages.data(),
+                     .note_count = std::uint32_t(result->notes.size()),
+                     .notes = result->notes.data(),
+                     .texels_per_metre = baked.texels_per_metre,
+                     .error = baked.error,
+                     .eye_error = baked.eye_error,
+                     .visible_noise = baked.visible_noise,
+                     .shots = baked.shots,
+                     .seconds = baked.seconds,
+                     .interrupted = baked.interrupted ? 1 : 0,
+                     .internal = result.get()};
     return result;
 }
 
@@ -230,7 +258,7 @@ LightmapFormat format_of(int format)
 void keep_message(const char* sentence) noexcept
 {
     try {
-        last_message = sentence;
+        last_message = in_c(sentence);
     } catch (...) {
         last_message.clear();
     }
@@ -252,10 +280,13 @@ int lumel_version(void)
 
 void lumel_on_warning(lumel_warning_function function, void* user)
 {
-    if (!function)
-        on_warning({});
-    else
-        on_warning([=](const std::string& sentence) { function(sentence.c_str(), user); });
+    guarded([&] {
+        if (!function)
+            on_warning({});
+        else
+            on_warning(
+                [=](const std::string& sentence) { function(in_c(sentence).c_str(), user); });
+    });
 }
 
 lumel_result lumel_open_device(const char* pick, lumel_device** device)
@@ -282,13 +313,14 @@ lumel_result lumel_bake(const lumel_device* device, const lumel_scene* scene,
         const ProgressFunction progress = progress_of(given);
         Baked found = device ? bake(device->device, scene->scene, wanted, progress)
                              : bake(scene->scene, wanted, progress);
-        *baked = result_of(std::move(found), *scene).release();
+        *baked = &result_of(std::move(found), *scene).release()->shown;
     });
 }
 
 void lumel_free_baked(const lumel_baked* baked)
 {
-    delete static_cast<const CBaked*>(baked);
+    if (baked)
+        delete static_cast<const CBaked*>(baked->internal);
 }
 
 lumel_result lumel_probes(const lumel_baked* baked, const float* places, uint32_t count,

@@ -11,7 +11,7 @@
 
 namespace lumel::v0 {
 
-/// Keeps the sentence for lumel_message().
+/// Keeps the sentence, with names of lumel_c.h, for lumel_message().
 void keep_message(const char* sentence) noexcept;
 
 /// Runs `work`; its exceptions become codes with their sentence.
@@ -38,6 +38,9 @@ lumel_result guarded(Work&& work) noexcept
         return LUMEL_OUT_OF_MEMORY;
     } catch (const std::exception& error) {
         keep_message(error.what());
+        return LUMEL_FAILED;
+    } catch (...) {
+        keep_message("a callback threw an exception");
         return LUMEL_FAILED;
     }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -18,9 +19,17 @@ namespace {
     throw Error(ErrorKind::input, place + ": " + what);
 }
 
-std::string numbered(const char* list, std::size_t number)
+std::string entry_of(const char* list, std::size_t number)
 {
     return std::string(list) + "[" + std::to_string(number) + "]";
+}
+
+/// Before that many texels are read.
+void check_sides(int width, int height, const std::string& place)
+{
+    constexpr int kLargestSide = 1 << 16;
+    if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide)
+        refuse_content(place, "its sides must lie between 1 and " + std::to_string(kLargestSide));
 }
 
 /// Number of a pointer in the order of first uses; a new one if `is_new`.
@@ -36,11 +45,11 @@ public:
         if (from.instance_count > 0)
             require(from.instances, "content.instances");
         for (std::uint32_t i = 0; i < from.instance_count; ++i)
-            add_instance(from.instances[i], numbered("instances", i));
+            add_instance(from.instances[i], entry_of("instances", i));
         if (from.light_count > 0)
             require(from.lights, "content.lights");
         for (std::uint32_t l = 0; l < from.light_count; ++l)
-            result_.content.lights.push_back(light_of(from.lights[l], numbered("lights", l)));
+            result_.content.lights.push_back(light_of(from.lights[l], entry_of("lights", l)));
         if (from.sky)
             read_sky(*from.sky);
         return std::move(result_);
@@ -74,10 +83,9 @@ private:
         const Numbered known = number_of(textures_, from);
         if (!known.is_new)
             return known.number;
-        const std::string place = numbered("textures", std::size_t(known.number));
+        const std::string place = entry_of("textures", std::size_t(known.number));
         require(from->rgba, place + ".rgba");
-        if (from->width < 1 || from->height < 1)
-            refuse_content(place, "its sides must be 1 or more");
+        check_sides(from->width, from->height, place);
         const std::size_t bytes = 4 * std::size_t(from->width) * std::size_t(from->height);
         result_.content.textures.push_back(
             {from->width, from->height, {from->rgba, from->rgba + bytes}});
@@ -102,7 +110,7 @@ private:
         const Numbered known = number_of(materials_, from);
         if (!known.is_new)
             return std::uint32_t(known.number);
-        const std::string place = numbered("materials", std::size_t(known.number));
+        const std::string place = entry_of("materials", std::size_t(known.number));
         Material material;
         material.name = text_of(from->name);
         std::copy_n(from->base_color, 4, material.base_color.begin());
@@ -126,13 +134,13 @@ private:
         for (std::uint32_t t = 0; t < mesh.triangle_count; ++t) {
             const std::uint32_t material = mesh.triangle_materials ? mesh.triangle_materials[t] : 0;
             if (material >= mesh.material_count)
-                refuse_content(place + "." + numbered("triangle_materials", t),
+                refuse_content(place + "." + entry_of("triangle_materials", t),
                                "is " + std::to_string(material) + ", but there are " +
                                    std::to_string(mesh.material_count) + " materials");
             for (std::size_t corner = 3 * std::size_t(t); corner < 3 * std::size_t(t) + 3;
                  ++corner) {
                 if (mesh.indices[corner] >= mesh.vertex_count)
-                    refuse_content(place + "." + numbered("indices", corner),
+                    refuse_content(place + "." + entry_of("indices", corner),
                                    "is " + std::to_string(mesh.indices[corner]) +
                                        ", but there are " + std::to_string(mesh.vertex_count) +
                                        " vertices");
@@ -161,17 +169,36 @@ private:
         return primitive;
     }
 
+    template <std::size_t N>
+    static void check_vertices(const float* values, std::uint32_t count, const std::string& name)
+    {
+        for (std::size_t i = 0; values && i < std::size_t(count) * N; ++i)
+            if (!std::isfinite(values[i]))
+                refuse_content(name + "[" + std::to_string(i / N) + "]", "is not finite");
+    }
+
+    /// Here, where vertices still have the mesh's own numbers.
+    static void check_arrays(const lumel_mesh& mesh, const std::string& place)
+    {
+        require(mesh.positions, place + ".positions");
+        require(mesh.indices, place + ".indices");
+        if (mesh.material_count == 0)
+            refuse_content(place, "has no materials");
+        require(mesh.materials, place + ".materials");
+        check_vertices<3>(mesh.positions, mesh.vertex_count, place + ".positions");
+        check_vertices<2>(mesh.texcoords, mesh.vertex_count, place + ".texcoords");
+        check_vertices<2>(mesh.lightmap, mesh.vertex_count, place + ".lightmap");
+        check_vertices<4>(mesh.colors, mesh.vertex_count, place + ".colors");
+    }
+
     std::uint32_t mesh(const lumel_mesh* from)
     {
         const Numbered known = number_of(meshes_, from);
         if (!known.is_new)
             return std::uint32_t(known.number);
-        const std::string place = numbered("meshes", std::size_t(known.number));
-        if (from->triangle_count > 0) {
-            require(from->positions, place + ".positions");
-            require(from->indices, place + ".indices");
-            require(from->materials, place + ".materials");
-        }
+        const std::string place = entry_of("meshes", std::size_t(known.number));
+        if (from->triangle_count > 0)
+            check_arrays(*from, place);
         Mesh mesh{.name = text_of(from->name), .primitives = {}};
         std::vector<std::vector<std::uint32_t>> used;
         for (std::vector<std::uint32_t>& indices : triangles_by_material(*from, place)) {
@@ -232,8 +259,7 @@ private:
     void read_sky(const lumel_sky& from)
     {
         require(from.luminance, "sky.luminance");
-        if (from.width < 1 || from.height < 1)
-            refuse_content("sky", "its sides must be 1 or more");
+        check_sides(from.width, from.height, "sky");
         Sky& sky = result_.content.sky;
         sky.width = from.width;
         sky.height = from.height;
@@ -254,6 +280,8 @@ Daylight daylight_of(const lumel_daylight& from)
     if (from.sky_luminance)
         daylight.sky_luminance =
             Vec3{from.sky_luminance[0], from.sky_luminance[1], from.sky_luminance[2]};
+    if (from.cie_sky != 0)
+        daylight.cie = CieSky{from.cie_sky, from.cie_lux != 0.0f ? from.cie_lux : CieSky{}.lux};
     if (from.has_sun != 0)
         daylight.sun = Daylight::Sun{from.sun_azimuth, from.sun_elevation};
     if (from.sky_scale != 0.0f)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <regex>
+#include <string_view>
 
 #include "methods/methods.h"
 
@@ -11,7 +12,6 @@ namespace {
 
 /// By names of options, without dashes.
 const std::map<std::string, std::string, std::less<>> kFields = {
-    {"baked-size", "size"},
     {"coarse-afar", "AtlasSettings::coarse_afar"},
     {"dark-error", "BakeSettings::dark_error"},
     {"density", "AtlasSettings::densities"},
@@ -35,6 +35,9 @@ const std::map<std::string, std::string, std::less<>> kFields = {
     {"time", "BakeSettings::seconds"},
 };
 
+/// Of an option that the library does not have.
+constexpr std::string_view kNotHere = " (--max-albedo)";
+
 /// Unchanged if there is no such field.
 std::string field_of(const std::string& option)
 {
@@ -48,8 +51,11 @@ std::string field_of(const std::string& option)
 
 }  // namespace
 
-std::string in_fields(const std::string& message)
+std::string in_fields(const std::string& given)
 {
+    std::string message = given;
+    if (const std::size_t at = message.find(kNotHere); at != message.npos)
+        message.erase(at, kNotHere.size());
     // At the beginning of a word: not in the name of a file.
     static const std::regex option("(^|[ (\"])--([a-z]+(-[a-z]+)*)");
     std::string result;

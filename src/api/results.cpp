@@ -1,13 +1,12 @@
 // What a bake gives beside its map: light probes and lit glTF files.
 
-#include <cmath>
+#include <numbers>
 
 #include "api/bake.h"
 #include "api/translate.h"
 #include "api/values.h"
 #include "api/warnings.h"
 #include "atlas/finish/finish.h"
-#include "base/core/log.h"
 #include "base/core/parallel.h"
 #include "base/images/image_files.h"
 #include "jobs/bake/lit_scenes.h"
@@ -72,17 +71,26 @@ lumel::LightmapFormat format_of(LightmapFormat format)
     }
 }
 
-/// Calls write(document, scene) with the scene's file, or a document that contains it.
+/// Calls write(document, scene) with the scene's file as it was read, or a document that contains
+/// the scene.
 template <class Write>
 void with_document(const BakedSolution& baked, const Write& write)
 {
     const lumel::Scene& scene = baked.setting.prepared.scene;
-    if (baked.is_of_file) {
-        write(load_gltf_document(scene.path), scene);
+    if (baked.document) {
+        write(*baked.document, scene);
     } else {
         const SceneDocument made = document_of(scene);
-        write(made.document, made.numbered);
+        write(made.document, made.scene);
     }
+}
+
+/// Finished [cd/m²].
+Image radiance_map(const BakedSolution& baked)
+{
+    const SolveScene& prepared = baked.setting.prepared;
+    return finish_map(prepared.scene, prepared.atlas, prepared.lumels,
+                      radiance_of(prepared.lumels, baked.irradiance));
 }
 
 std::optional<AddedCamera> camera_of(const SolveScene& prepared)
@@ -125,8 +133,10 @@ void write_scene(const std::string& path, const Baked& baked, LightmapFormat for
         const BakedSolution& solution = solution_of(baked);
         const SolveScene& prepared = solution.setting.prepared;
         const Image map = image_of(baked.map, prepared.atlas);
+        // A white surface of irradiance H sends H / π.
+        const float exposure = exposure_of(radiance_map(solution)) * std::numbers::inv_pi_v<float>;
         const SceneLighting lights{.keep = solution.parts == lumel::Parts::indirect,
-                                   .exposure = exposure_of(map),
+                                   .exposure = exposure,
                                    .format = format_of(format),
                                    .camera = camera_of(prepared)};
         with_document(solution, [&](const GltfDocument& document, const lumel::Scene& scene) {
@@ -142,18 +152,17 @@ void write_baked_scene(const std::string& path, const Baked& baked, int size)
         if (size < 1 || size > kLargestTexture)
             refuse_result("size", "must lie between 1 and " + std::to_string(kLargestTexture));
         const SolveScene& prepared = solution.setting.prepared;
-        const Image map = image_of(baked.map, prepared.atlas);
-        const Image radiance = finish_map(prepared.scene, prepared.atlas, prepared.lumels,
-                                          radiance_of(prepared.lumels, solution.irradiance));
-        const LogCapture log;
-        const lumel::ProgressFunction nobody;
-        Stages stages(nobody);
-        const Image shown =
-            tone_map(baked_texture(prepared, map, radiance, size, stages), exposure_of(radiance));
+        const Image map =
+            finish_map(prepared.scene, prepared.atlas, prepared.lumels, solution.irradiance);
+        const Image radiance = radiance_map(solution);
+        const BakedTexture texture = baked_texture(prepared, map, radiance, size);
+        const Image shown = tone_map(texture.radiance, exposure_of(radiance));
         with_document(solution, [&](const GltfDocument& document, const lumel::Scene& scene) {
             write_baked_glb(path, document, scene, prepared.atlas, shown, camera_of(prepared));
         });
-        told(log.messages());
+        if (texture.density < 1.0)
+            told({path + ": its textures are downsampled to " + percent_text(texture.density) +
+                  "; give a larger size, or use write_scene()"});
     });
 }
 

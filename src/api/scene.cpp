@@ -12,6 +12,8 @@
 namespace lumel::v0 {
 namespace {
 
+constexpr float kLargestLux = 1e9f;
+
 void refuse(const std::string& what)
 {
     throw lumel::Error(lumel::ErrorKind::input, "Daylight", what);
@@ -23,6 +25,13 @@ LightOptions options_of(const Daylight& daylight)
     options.sky_file = daylight.sky_file;
     if (const auto& luminance = daylight.sky_luminance)
         options.sky_color = checked_factor(*luminance, "Daylight::sky_luminance");
+    if (const auto& cie = daylight.cie) {
+        if (cie->type < 1 || cie->type > kOvercastType || !(cie->lux > 0.0f) ||
+            cie->lux > kLargestLux)
+            refuse("cie: the type must lie between 1 and 16, its illuminance above 0 and at most "
+                   "1e9 lx");
+        options.cie = lumel::CieSky{.type = cie->type, .lux = cie->lux, .sun = {}};
+    }
     if (const auto& sun = daylight.sun) {
         if (!std::isfinite(sun->azimuth) || !(std::abs(sun->elevation) <= std::numbers::pi / 2.0))
             refuse("the elevation of the sun must lie between -pi/2 and pi/2, its azimuth must be "
@@ -55,14 +64,15 @@ lumel::Scene finished(lumel::Scene scene)
 Scene Scene::load(const std::string& path, Materials materials)
 {
     return translated([&] {
+        const auto document = std::make_shared<const GltfDocument>(load_gltf_document(path));
         return Scene(std::make_unique<SceneImpl>(
-            SceneImpl{finished(lumel::read_gltf(path, model_of(materials))), true}));
+            SceneImpl{finished(lumel::read_gltf(*document, model_of(materials))), document}));
     });
 }
 
 Scene::Scene(const SceneContent& content)
     : impl_(translated([&] {
-          return std::make_unique<SceneImpl>(SceneImpl{finished(scene_of(content)), false});
+          return std::make_unique<SceneImpl>(SceneImpl{finished(scene_of(content)), nullptr});
       }))
 {
 }

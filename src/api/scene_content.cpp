@@ -1,6 +1,7 @@
 // Converts a host's arrays to a checked scene.
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "base/core/error.h"
 #include "base/core/frame.h"
 #include "scene/values/geometry_checks.h"
+#include "scene/values/origin.h"
 #include "scene/values/scene_hash.h"
 
 namespace lumel::v0 {
@@ -128,6 +130,9 @@ lumel::Primitive primitive_of(const Primitive& from, std::size_t materials,
     check_attribute(from.texcoords, vertices, place, "texcoords");
     check_attribute(from.lightmap, vertices, place, "lightmap coordinates");
     check_attribute(from.colors, vertices, place, "colors");
+    for (std::size_t i = 0; i < from.colors.size(); ++i)
+        for (const float value : from.colors[i])
+            check_unit(value, fmt::format("{}: colors[{}]", place, i), "its values");
     if (!from.normals.empty() && from.normals.size() != vertices)
         refuse(place,
                fmt::format("has {} normals for {} positions", from.normals.size(), vertices));
@@ -168,6 +173,9 @@ lumel::Instance instance_of(const Instance& from, const std::vector<lumel::Mesh>
     const glm::mat4 transform = to_glm(from.transform);
     if (!is_finite(from.transform))
         refuse(place, "its transform is not finite");
+    if (glm::transpose(transform)[3] != glm::vec4(0.0f, 0.0f, 0.0f, 1.0f))
+        refuse(place, "its transform is not affine: it goes column by column, so elements 3, 7 and "
+                      "11 are 0, and 15 is 1");
     if (is_flat(transform))
         refuse(place, "its transform leaves the mesh no volume");
     if (reaches_too_far(bounds_of(meshes[from.mesh]), transform))
@@ -239,6 +247,23 @@ lumel::Sky sky_of(const Sky& from)
     return {.width = from.width, .height = from.height, .radiance = to_glm(from.luminance)};
 }
 
+/// Centres a scene that lies far from 0.
+void recentre(lumel::Scene& scene)
+{
+    constexpr double kBeyond = std::numeric_limits<double>::max();
+    Bounds whole{glm::dvec3(kBeyond), glm::dvec3(-kBeyond)};
+    for (const lumel::Instance& instance : scene.instances) {
+        if (scene.meshes[std::size_t(instance.mesh)].primitives.empty())
+            continue;
+        const Bounds box = placed_box(bounds_of(scene.meshes[std::size_t(instance.mesh)]),
+                                      glm::dmat4(instance.transform));
+        whole.low = glm::min(whole.low, box.low);
+        whole.high = glm::max(whole.high, box.high);
+    }
+    if (whole.low.x <= whole.high.x)
+        set_origin(scene, origin_for(whole));
+}
+
 }  // namespace
 
 lumel::Scene scene_of(const SceneContent& content)
@@ -263,6 +288,7 @@ lumel::Scene scene_of(const SceneContent& content)
     for (const Light& light : content.lights)
         scene.lights.push_back(light_of(light, place("lights", scene.lights.size())));
     scene.sky = sky_of(content.sky);
+    recentre(scene);
     if (scene.dropped_triangles > 0)
         scene.warnings.push_back(
             fmt::format("{} triangles of zero area dropped", scene.dropped_triangles));

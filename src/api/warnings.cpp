@@ -15,7 +15,7 @@ struct Listener {
     WarningFunction function;
 };
 
-/// One for the process: messages arise in calls that share nothing else.
+/// One for the process: calls that have messages share no object.
 Listener& listener()
 {
     static Listener one;
@@ -33,16 +33,12 @@ void on_warning(WarningFunction function)
 std::vector<std::string> told(const std::vector<std::string>& messages,
                               const std::vector<std::string>& known)
 {
-    WarningFunction tell;
-    {
-        const std::lock_guard lock(listener().mutex);
-        tell = listener().function;
-    }
     std::vector<std::string> result = in_fields(messages);
-    if (tell)
+    const std::lock_guard lock(listener().mutex);
+    if (listener().function)
         for (const std::string& message : result)
             if (std::ranges::find(known, message) == known.end())
-                tell(message);
+                listener().function(message);
     return result;
 }
 

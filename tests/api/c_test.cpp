@@ -1,6 +1,7 @@
 // The interface for C: what it makes of scenes and bakes is what lumel.h makes of them.
 
 #include <cstring>
+#include <limits>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -71,6 +72,8 @@ struct Cube {
     }
 };
 
+constexpr std::uint8_t kNoTexel = 0;
+
 ScenePointer scene_of(const lumel_content& content)
 {
     lumel_scene* scene = nullptr;
@@ -93,6 +96,32 @@ void expect_refusal(lumel_result result, lumel_result wanted,
         EXPECT_NE(std::strstr(lumel_message(), word), nullptr) << lumel_message();
 }
 
+/// That the surfaces are those of `wanted`, with the vertices of the cube's one mesh.
+void expect_surfaces(const lumel_baked& baked, const Baked& wanted, const Cube& cube)
+{
+    const std::vector<Primitive> primitives = cube.values().meshes[0].primitives;
+    ASSERT_EQ(baked.surface_count, wanted.surfaces.size());
+    for (std::uint32_t s = 0; s < baked.surface_count; ++s) {
+        const lumel_surface& surface = baked.surfaces[s];
+        const Surface& same = wanted.surfaces[s];
+        EXPECT_EQ(surface.instance, same.instance);
+        EXPECT_EQ(surface.primitive, same.primitive);
+        EXPECT_EQ(surface.texels_per_metre, same.texels_per_metre);
+        EXPECT_EQ(surface.page, nullptr);
+        EXPECT_TRUE(std::ranges::equal(std::span(surface.indices, 3 * surface.triangle_count),
+                                       same.indices));
+        ASSERT_EQ(surface.vertex_count, same.lightmap.size());
+        for (std::uint32_t v = 0; v < surface.vertex_count; ++v) {
+            EXPECT_EQ(surface.lightmap[2 * v], same.lightmap[v][0]);
+            EXPECT_EQ(surface.lightmap[2 * v + 1], same.lightmap[v][1]);
+            const float* const position = cube.mesh.positions + 3 * surface.source_vertex[v];
+            const Vec3& expected = primitives[same.primitive].positions[same.source_vertex[v]];
+            for (std::size_t c = 0; c < 3; ++c)
+                EXPECT_EQ(position[c], expected[c]);
+        }
+    }
+}
+
 TEST(LumelC, IsOfTheSameVersion)
 {
     EXPECT_EQ(lumel_version(), version());
@@ -112,18 +141,7 @@ TEST(LumelC, GivesTheBakeOfLumelH)
     EXPECT_EQ(baked->interrupted, 0);
     EXPECT_EQ(baked->page_count, 1u);
     EXPECT_EQ(baked->pages[0].side, kSize);
-    ASSERT_EQ(baked->surface_count, 2u);
-    for (std::uint32_t s = 0; s < 2; ++s) {
-        const lumel_surface& surface = baked->surfaces[s];
-        EXPECT_EQ(surface.primitive, s);
-        EXPECT_EQ(surface.triangle_count, s == 0 ? 10u : 2u);
-        for (std::uint32_t v = 0; v < surface.vertex_count; ++v) {
-            EXPECT_EQ(surface.lightmap[2 * v], same.surfaces[s].lightmap[v][0]);
-            // Vertices are those of the mesh: the floor, at y = -1, is the material that glows.
-            const float y = cube.mesh.positions[3 * surface.source_vertex[v] + 1];
-            EXPECT_TRUE(s == 0 || y == -1.0f);
-        }
-    }
+    expect_surfaces(*baked, same, cube);
 }
 
 TEST(LumelC, GivesProbesAndFiles)
@@ -156,16 +174,136 @@ TEST(LumelC, ReadsFilesWithDaylight)
     ASSERT_EQ(lumel_load_scene(scene_path("cornell-box").c_str(), &read), LUMEL_OK);
     const ScenePointer scene(read);
     const float sky[3] = {1.0f, 2.0f, 4.0f};
-    const lumel_daylight daylight{.sky_luminance = sky, .has_sun = 1, .sun_elevation = 0.5};
+    const lumel_daylight daylight{.sky_luminance = sky,
+                                  .has_sun = 1,
+                                  .sun_azimuth = 2.0,
+                                  .sun_elevation = 0.5,
+                                  .sky_scale = 2.0f,
+                                  .rotation = 0.25};
     ASSERT_EQ(lumel_add_daylight(scene.get(), &daylight), LUMEL_OK) << lumel_message();
     const BakedPointer baked = baked_of(scene.get(), {.size = kSize, .shots = 12});
     Scene same = Scene::load(scene_path("cornell-box"));
-    same.add_daylight(
-        {.sky_luminance = Vec3{1.0f, 2.0f, 4.0f}, .sun = Daylight::Sun{.elevation = 0.5}});
+    same.add_daylight({.sky_luminance = Vec3{1.0f, 2.0f, 4.0f},
+                       .sun = Daylight::Sun{.azimuth = 2.0, .elevation = 0.5},
+                       .sky_scale = 2.0f,
+                       .rotation = 0.25});
     const Baked wanted = bake(same, {.atlas = {.size = kSize}, .shots = 12});
     EXPECT_TRUE(
         std::ranges::equal(wanted.map.rgba, std::span(baked->map.rgba, wanted.map.rgba.size())));
     ASSERT_EQ(baked->note_count, wanted.notes.size());
+    ASSERT_GT(baked->note_count, 0u);
+    EXPECT_NE(std::strstr(baked->notes[0], "daylight.sky_scale"), nullptr) << baked->notes[0];
+}
+
+/// That a bake by C arrays is one by the same values.
+void expect_same_bake(const lumel_content& content, const SceneContent& values,
+                      const lumel_settings& settings, const BakeSettings& same)
+{
+    const ScenePointer scene = scene_of(content);
+    const BakedPointer baked = baked_of(scene.get(), settings);
+    const Baked wanted = bake(Scene(values), same);
+    ASSERT_EQ(std::size_t(baked->map.width) * std::size_t(baked->map.height) * 4,
+              wanted.map.rgba.size());
+    EXPECT_TRUE(
+        std::ranges::equal(wanted.map.rgba, std::span(baked->map.rgba, wanted.map.rgba.size())));
+    EXPECT_EQ(baked->surface_count, wanted.surfaces.size());
+    EXPECT_EQ(baked->page_count, wanted.pages.size());
+}
+
+TEST(LumelC, TakesLooksAndPlaces)
+{
+    Cube cube;
+    const std::uint8_t rgba[8] = {255, 0, 0, 255, 0, 255, 0, 64};
+    const lumel_texture texture{.width = 2, .height = 1, .rgba = rgba};
+    cube.materials[0].base_color_texture = &texture;
+    cube.materials[0].alpha = LUMEL_BLEND;
+    cube.materials[0].double_sided = 1;
+    cube.materials[1].emitted_texture = &texture;
+    SceneContent values = cube.values();
+    const std::size_t vertices = cube.mesh.vertex_count;
+    std::vector<Vec2> texcoords(vertices);
+    std::vector<Vec3> normals(vertices);
+    std::vector<Vec4> colors(vertices);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const float* const position = cube.mesh.positions + 3 * v;
+        texcoords[v] = {position[0], position[1]};
+        normals[v] = {-position[0], -position[1], -position[2]};
+        colors[v] = {1.0f, 0.5f, 0.25f, 1.0f};
+    }
+    cube.mesh.texcoords = texcoords[0].data();
+    cube.mesh.normals = normals[0].data();
+    cube.mesh.colors = colors[0].data();
+    values.textures = {{2, 1, {rgba, rgba + 8}}};
+    values.materials[0].base_color_texture = values.materials[1].emitted_texture = 0;
+    values.materials[0].alpha = Alpha::blend;
+    values.materials[0].double_sided = true;
+    for (Primitive& primitive : values.meshes[0].primitives) {
+        primitive.texcoords = texcoords;
+        primitive.normals = normals;
+        primitive.colors = colors;
+    }
+    lumel_instance twice[2] = {cube.instance, cube.instance};
+    twice[1].name = "second";
+    for (const int diagonal : {0, 5, 10, 15})
+        twice[1].transform[diagonal] = 1.0f;
+    twice[1].transform[12] = 5.0f;
+    values.instances.push_back(values.instances[0]);
+    values.instances[1].name = "second";
+    values.instances[1].transform[12] = 5.0f;
+    const lumel_light sun{.kind = LUMEL_DIRECTIONAL,
+                          .intensity = 100.0f,
+                          .direction = {1.0f, -2.0f, 0.5f},
+                          .angle = 0.01f};
+    values.lights = {{.kind = Light::Kind::directional,
+                      .intensity = 100.0f,
+                      .direction = {1.0f, -2.0f, 0.5f},
+                      .angle = 0.01f}};
+    lumel_content content{
+        .instance_count = 2, .instances = twice, .light_count = 1, .lights = &sun};
+    const lumel_density density{.pattern = "second", .texels_per_metre = 10.0f};
+    const lumel_settings settings{.texels_per_metre = 5.0f,
+                                  .max_size = 2 * kSize,
+                                  .pages = 4,
+                                  .sides = LUMEL_SIDES_FRONT,
+                                  .density_count = 1,
+                                  .densities = &density,
+                                  .parts = LUMEL_DIRECT_LIGHT,
+                                  .shots = 12};
+    expect_same_bake(content, values, settings,
+                     {.atlas = {.texels_per_metre = 5.0f,
+                                .max_size = 2 * kSize,
+                                .pages = 4,
+                                .sides = Sides::front,
+                                .densities = {{"second", 10.0f}}},
+                      .parts = Parts::direct,
+                      .shots = 12});
+}
+
+TEST(LumelC, TakesSkiesOfTheCie)
+{
+    const Cube cube;
+    const ScenePointer scene = scene_of(cube.arrays());
+    lumel_daylight daylight{.cie_sky = 12, .cie_lux = 500.0f};
+    expect_refusal(lumel_add_daylight(scene.get(), &daylight), LUMEL_BAD_INPUT, {"cie:12", "sun"});
+    daylight.cie_sky = 17;
+    expect_refusal(lumel_add_daylight(scene.get(), &daylight), LUMEL_BAD_INPUT, {"16"});
+    daylight.cie_sky = 3;
+    EXPECT_EQ(lumel_add_daylight(scene.get(), &daylight), LUMEL_OK) << lumel_message();
+}
+
+/// A material that no triangle has, and a triangle without area.
+TEST(LumelC, LeavesOutWhatShowsNothing)
+{
+    Cube cube;
+    cube.of_triangle.assign(12, 1);
+    std::vector<std::uint32_t> indices(cube.mesh.indices, cube.mesh.indices + 36);
+    indices[4] = indices[3];
+    cube.mesh.indices = indices.data();
+    const ScenePointer scene = scene_of(cube.arrays());
+    const BakedPointer baked = baked_of(scene.get(), {.size = kSize, .shots = 12});
+    ASSERT_EQ(baked->surface_count, 1u);
+    EXPECT_EQ(baked->surfaces[0].primitive, 1u);
+    EXPECT_EQ(baked->surfaces[0].triangle_count, 11u);
 }
 
 TEST(LumelC, TakesLampsAndSkies)
@@ -249,6 +387,23 @@ TEST(LumelC, RefusesWithASentence)
     cube.mesh.vertex_count = 4;
     expect_refusal(lumel_make_scene(&content, &scene), LUMEL_BAD_INPUT, {"meshes[0].indices[6]"});
     cube.mesh.vertex_count = 24;
+    std::vector<float> positions(cube.mesh.positions, cube.mesh.positions + 72);
+    positions[3 * 17 + 1] = std::numeric_limits<float>::quiet_NaN();
+    cube.mesh.positions = positions.data();
+    expect_refusal(lumel_make_scene(&content, &scene), LUMEL_BAD_INPUT,
+                   {"meshes[0].positions[17]"});
+    cube.mesh.material_count = 0;
+    expect_refusal(lumel_make_scene(&content, &scene), LUMEL_BAD_INPUT, {"no materials"});
+    cube.mesh.material_count = 2;
+    cube.mesh.positions = cube.content.meshes[0].primitives[0].positions[0].data();
+    cube.instance.transform[3] = 1.0f;
+    expect_refusal(lumel_make_scene(&content, &scene), LUMEL_BAD_INPUT,
+                   {"instances[0]", "column by column"});
+    cube.instance.transform[3] = 0.0f;
+    const lumel_texture endless{.width = 1 << 30, .height = 1 << 30, .rgba = &kNoTexel};
+    cube.materials[0].base_color_texture = &endless;
+    expect_refusal(lumel_make_scene(&content, &scene), LUMEL_BAD_INPUT, {"textures[0]", "65536"});
+    cube.materials[0].base_color_texture = nullptr;
     cube.mesh.positions = nullptr;
     expect_refusal(lumel_make_scene(&content, &scene), LUMEL_BAD_INPUT, {"meshes[0].positions"});
     cube.instance.mesh = nullptr;
@@ -263,9 +418,10 @@ TEST(LumelC, RefusesWithASentence)
         expect_refusal(lumel_bake(nullptr, made.get(), &settings, &baked), LUMEL_BAD_INPUT, words);
     };
     refused({.method = "mc"}, {"mc", "method"});
-    refused({.method = "stochastic"}, {"stochastic", "Device"});
+    refused({.method = "stochastic"}, {"stochastic", "device"});
     refused({.sides = 9}, {"settings.sides"});
-    refused({.error = -1.0}, {"error"});
+    refused({.error = -1.0}, {"settings.error"});
+    refused({.size = -1}, {"settings.size"});
     const char* const odd[] = {"filter", nullptr};
     refused({.options = odd}, {"filter", "NULL"});
     EXPECT_EQ(baked, nullptr);
@@ -291,6 +447,14 @@ TEST(LumelC, TakesOptionsOfMethodsOnADevice)
     const lumel_baked* baked = nullptr;
     EXPECT_EQ(lumel_bake(opened, scene.get(), &settings, &baked), LUMEL_OK) << lumel_message();
     ASSERT_NE(baked, nullptr);
+    const Baked same = bake(Device(), Scene(cube.values()),
+                            {.atlas = {.size = kSize},
+                             .method = "stochastic",
+                             .options = {{"hemicube", "64"}},
+                             .directional = Directional::sh2,
+                             .shots = 64});
+    EXPECT_TRUE(
+        std::ranges::equal(same.map.rgba, std::span(baked->map.rgba, same.map.rgba.size())));
     EXPECT_EQ(baked->directional_count, 9u);
     EXPECT_EQ(baked->directional[8].width, kSize);
     lumel_free_baked(baked);

@@ -1,6 +1,9 @@
 // The main job from outside: files, JSON, silence, interruption, exit codes.
 
 #include <algorithm>
+#include <numbers>
+#include <set>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -72,6 +75,57 @@ TEST(Bake, ReportAndSceneStateTheExposureOfThePictures)
     EXPECT_NEAR(report["solution"]["exposure"], exposure, 1e-6 * exposure);
     EXPECT_FALSE(scene.contains("images"));
     EXPECT_EQ(report["settings"]["lightmap-format"], "none");
+}
+
+TEST(Bake, TakesAnExposureThatItsCorrectionsKeep)
+{
+    const Workplace place;
+    const float given = 0.02f;
+    ASSERT_EQ(
+        run_lumel(small_bake(place.path("out"), {"--shots", "12", "--exposure", "0.02"})).code, 0);
+    const auto exposure_of = [](const std::string& folder) {
+        const auto scene = json_of_glb(bytes_of(folder + "/scene.glb"));
+        return double(scene["asset"]["extras"]["lumel"]["exposure"]);
+    };
+    // A white surface of irradiance H sends H / pi.
+    const double of_irradiance = double(given) / std::numbers::pi;
+    EXPECT_NEAR(exposure_of(place.path("out")), of_irradiance, 1e-6 * of_irradiance);
+    const Outcome update =
+        run_lumel({"update", place.path("out"), own_scene("cornell-box.gltf"), "--sky", "5,5,5"});
+    ASSERT_EQ(update.code, 0) << update.err;
+    EXPECT_NEAR(exposure_of(place.path("out")), of_irradiance, 1e-6 * of_irradiance);
+    const Outcome refused = run_lumel(small_bake(place.path("bad"), {"--exposure", "0"}));
+    EXPECT_NE(refused.code, 0);
+    EXPECT_NE(refused.err.find("--exposure"), std::string::npos) << refused.err;
+}
+
+TEST(Bake, EndsWithTheFilesForViewers)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel(small_bake(place.path("out"), {"--shots", "6"}));
+    const std::string last = bake.out.substr(bake.out.rfind('\n', bake.out.size() - 2) + 1);
+    for (const char* file : {"out/scene-baked.glb", "out/scene.glb"})
+        EXPECT_NE(last.find(file), std::string::npos) << bake.out;
+}
+
+TEST(Bake, TellsItsProgressToPrograms)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel(
+        small_bake(place.path("out"), {"--shots", "24", "--quiet", "--progress", "json"}));
+    ASSERT_EQ(bake.code, 0) << bake.err;
+    std::istringstream lines(bake.err);
+    std::set<std::string> stages;
+    std::string line;
+    while (std::getline(lines, line)) {
+        const auto now = nlohmann::json::parse(line, nullptr, false);
+        ASSERT_TRUE(now.is_object()) << line;
+        stages.insert(now.value("stage", ""));
+        EXPECT_GE(now.value("fraction", -1.0), 0.0) << line;
+        EXPECT_LE(now.value("fraction", 2.0), 1.0) << line;
+    }
+    for (const char* stage : {"reading", "charts", "solving", "writing"})
+        EXPECT_TRUE(stages.contains(stage)) << stage;
 }
 
 Picture preview_of(const std::string& scene, const std::vector<std::string>& options)

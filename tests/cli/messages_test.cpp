@@ -164,7 +164,7 @@ TEST(Messages, HaveColoursOnTerminalsUnlessNotWanted)
 {
     const Workplace place;
     const std::vector<std::string> bake =
-        small_bake(place.path("out"), {"--shots", "6", "--error", "1", "--no-progress"});
+        small_bake(place.path("out"), {"--shots", "6", "--error", "1", "--progress", "none"});
     const auto colours = [&](bool terminal, const std::string& setting) {
         const Outcome outcome =
             run_lumel(bake, {.terminal = terminal, .environment = {"TERM=xterm", setting}});

@@ -53,11 +53,16 @@ Scene read_scene(const std::string& path, MaterialModel model, const LightOption
 {
     Scene scene = read_gltf(path, model);
     add_lights(scene, lights);
+    warn_if_dark(scene);
+    return scene;
+}
+
+void warn_if_dark(Scene& scene)
+{
     if (!gives_light(scene))
         scene.warnings.emplace_back(
             "nothing in the scene gives light, so the lightmap will be black: give a material "
             "emission, add lamps (KHR_lights_punctual), or use --sky or --sun");
-    return scene;
 }
 
 void check_camera(const Scene& scene, int camera)

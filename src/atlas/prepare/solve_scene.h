@@ -15,6 +15,9 @@ namespace lumel {
 /// Reads a scene and adds the lights of the options. Throws Error.
 Scene read_scene(const std::string& path, MaterialModel model, const LightOptions& lights);
 
+/// Adds a warning if nothing in the scene gives light.
+void warn_if_dark(Scene& scene);
+
 /// Throws Error{input} if the scene has no such camera; -1 means any.
 void check_camera(const Scene& scene, int camera);
 

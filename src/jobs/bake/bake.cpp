@@ -34,6 +34,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     check_parts(options);
     check_keep_links(options);
     check_resume(options);
+    open_libraries(options);
     Stages stages(progress);
     stages.begin("reading");
     Scene scene = read_scene(scene_path, method.materials, options.lights);

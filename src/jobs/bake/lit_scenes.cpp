@@ -32,17 +32,14 @@ std::optional<AddedCamera> camera_for(const SolveScene& prepared, const std::opt
     return AddedCamera{.view = *view, .extent = prepared.extent()};
 }
 
-Image baked_texture(const SolveScene& prepared, const Image& map, const Image& radiance, int most,
-                    Stages& stages)
+BakedTexture baked_texture(const SolveScene& prepared, const Image& map, const Image& radiance,
+                           int most)
 {
     const int wanted = texture_density(prepared.scene, prepared.atlas);
     const int scale = std::clamp(most / prepared.atlas.pages.side, 1, wanted);
-    if (scale < wanted)
-        stages.tell("textures in scene-baked.glb are downsampled to " +
-                    percent_text(double(scale) / wanted) +
-                    "; raise --baked-size, or use scene.glb");
-    return scale == 1 ? radiance
-                      : fine_radiance(prepared.scene, prepared.atlas, map, radiance, scale);
+    return {scale == 1 ? radiance
+                       : fine_radiance(prepared.scene, prepared.atlas, map, radiance, scale),
+            double(scale) / double(wanted)};
 }
 
 }  // namespace lumel

@@ -6,7 +6,6 @@
 
 #include "atlas/prepare/solve_scene.h"
 #include "base/core/image.h"
-#include "jobs/solve/stages.h"
 #include "results/files/gltf_write.h"
 
 namespace lumel {
@@ -20,9 +19,15 @@ float exposure_of(const Image& radiance);
 /// The camera that `view` shows, for a scene without one. view: empty if there is none.
 std::optional<AddedCamera> camera_for(const SolveScene& prepared, const std::optional<View>& view);
 
-/// The texture of scene-baked.glb [cd/m²]: as dense as the scene's own textures, but of at most
-/// `most` texels a side. map: irradiance [lx], radiance: of the finished map [cd/m²].
-Image baked_texture(const SolveScene& prepared, const Image& map, const Image& radiance, int most,
-                    Stages& stages);
+/// The texture of scene-baked.glb.
+struct BakedTexture {
+    Image radiance;  ///< [cd/m²]
+    double density;  ///< relative to that of the scene's own textures, at most 1
+};
+
+/// As dense as the scene's own textures, but of at most `most` texels a side. map: irradiance [lx],
+/// radiance: of the finished map [cd/m²].
+BakedTexture baked_texture(const SolveScene& prepared, const Image& map, const Image& radiance,
+                           int most);
 
 }  // namespace lumel

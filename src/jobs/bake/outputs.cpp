@@ -100,14 +100,17 @@ struct DrawnPreview {
 };
 
 /// Empty, with a warning, if the preview cannot be rendered.
-std::optional<DrawnPreview> draw_preview(const gpu::Device& device, const SolveScene& prepared,
-                                         const Image& map, const Image& radiance, const View& view,
-                                         int width)
+std::optional<DrawnPreview> draw_preview(const gpu::Device& device, const BakeOptions& options,
+                                         const SolveScene& prepared, const Image& map,
+                                         const Image& radiance, const View& view)
 {
     try {
         Preview preview(device, prepared.scene, prepared.atlas);
-        const auto seen = choose_exposure(preview.draw(prepared.scene, map, view, width));
-        const float exposure = seen ? *seen : exposure_of(radiance);
+        const auto seen =
+            choose_exposure(preview.draw(prepared.scene, map, view, options.preview_width));
+        const float exposure = options.exposure > 0.0f ? options.exposure
+                               : seen                  ? *seen
+                                                       : exposure_of(radiance);
         Image picture = preview.tone_mapped(exposure);
         put_sky_behind(picture, prepared.scene.sky, view, exposure);
         return DrawnPreview{std::move(picture), exposure};
@@ -133,12 +136,13 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
         stages.begin("preview");
     const auto view =
         draws ? std::optional(choose_view(prepared.scene, prepared.rays)) : std::nullopt;
-    auto drawn = draws
-                     ? draw_preview(*device, prepared, map, radiance, *view, options.preview_width)
-                     : std::nullopt;
+    auto drawn =
+        draws ? draw_preview(*device, options, prepared, map, radiance, *view) : std::nullopt;
     stages.begin("writing");
     // All images have one exposure; a white surface of irradiance H sends H / π.
-    const float exposure_of_radiance = drawn ? drawn->exposure : exposure_of(radiance);
+    const float exposure_of_radiance = drawn                     ? drawn->exposure
+                                       : options.exposure > 0.0f ? options.exposure
+                                                                 : exposure_of(radiance);
     const WrittenLight written{.exposure = exposure_of_radiance * std::numbers::inv_pi_v<float>,
                                .view = drawn ? view : std::nullopt};
     if (drawn)
@@ -155,10 +159,12 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
                      .exposure = written.exposure,
                      .format = options.lightmap_format,
                      .camera = camera});
-    const Image shown = tone_map(baked_texture(prepared, map, radiance, options.baked_size, stages),
-                                 exposure_of_radiance);
-    write_baked_glb(folder.path("scene-baked.glb"), document, prepared.scene, prepared.atlas, shown,
-                    camera);
+    const BakedTexture baked = baked_texture(prepared, map, radiance, options.baked_size);
+    if (baked.density < 1.0)
+        stages.tell("textures in scene-baked.glb are downsampled to " +
+                    percent_text(baked.density) + "; raise --baked-size, or use scene.glb");
+    write_baked_glb(folder.path("scene-baked.glb"), document, prepared.scene, prepared.atlas,
+                    tone_map(baked.radiance, exposure_of_radiance), camera);
     return written;
 }
 

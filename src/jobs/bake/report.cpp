@@ -23,6 +23,7 @@ BakeRecord record_of(const BakeOptions& options, const SolveScene& prepared, con
                       .keep_lights = options.keep_lights,
                       .lightmap_format = options.lightmap_format,
                       .baked_size = options.baked_size,
+                      .given_exposure = options.exposure,
                       .keep_links = options.keep_links ? std::uint32_t(results.shots) : 0,
                       .pages = prepared.atlas.pages,
                       .texels_per_metre = double(prepared.atlas.texels_per_metre),

@@ -64,14 +64,14 @@ std::optional<double> outdoors(const FinishedBake& bake, const LightMeter& meter
                                MeasureSummary& summary)
 {
     const LightOptions& lights = bake.record.lights;
-    if (!lights.overcast)
+    if (!lights.cie || lights.cie->type != kOvercastType)
         return std::nullopt;
     if (meter.has_lamps()) {
         summary.notes.emplace_back(
             "no daylight factors: the bake has other lights than the overcast sky");
         return std::nullopt;
     }
-    return double(*lights.overcast) * double(lights.sky_scale);
+    return double(lights.cie->lux) * double(lights.sky_scale);
 }
 
 Json json_of(const MeasureRow& row, const std::optional<double>& outside)

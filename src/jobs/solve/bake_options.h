@@ -29,10 +29,11 @@ struct BakeOptions {
     int baked_size = kBakedSize;  ///< maximum side of the texture of scene-baked.glb [texels]
     Directional directional = Directional::none;  ///< extra layers of lightmap.exr
     int preview_width = 1280;                     ///< [pixels], 0: no preview
-    double probe_spacing = 0.0;        ///< spacing of a grid of light probes [m]; 0: none
-    bool keep_links = false;           ///< stores the links for later runs
-    std::string dump;                  ///< folder for intermediate images, see dump.h; empty: none
-    bool resume = false;               ///< continues from a checkpoint, if there is one
+    float exposure = 0.0f;       ///< of preview and other images for display [m²/cd]; 0: fitted
+    double probe_spacing = 0.0;  ///< spacing of a grid of light probes [m]; 0: none
+    bool keep_links = false;     ///< stores the links for later runs
+    std::string dump;            ///< folder for intermediate images, see dump.h; empty: none
+    bool resume = false;         ///< continues from a checkpoint, if there is one
     double checkpoint_seconds = 60.0;  ///< between checkpoints, see Checkpoint; 0: none
     /// Limit for host and device each [bytes]; 0: available memory.
     std::uint64_t max_memory = 0;

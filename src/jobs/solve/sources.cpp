@@ -2,6 +2,7 @@
 
 #include "methods/matrix/relight_solver.h"
 #include "methods/methods.h"
+#include "solve/matrix/blas.h"
 
 namespace lumel {
 namespace {
@@ -47,6 +48,12 @@ FormFactorRow row_of(const Transport& transport)
 bool keeps_sources_apart(const BakeOptions& options)
 {
     return method_of(options.solver.method).can_keep_sources;
+}
+
+void open_libraries(const BakeOptions& options)
+{
+    if (std::holds_alternative<MatrixOptions>(options.solver.method))
+        blas::open();
 }
 
 AtlasOptions atlas_that_fits(const BakeOptions& options)

@@ -206,7 +206,8 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
                                 .keep_lights = baked.keep_lights,
                                 .lightmap_format = baked.lightmap_format,
                                 .baked_size = baked.baked_size,
-                                .preview_width = options.preview_width};
+                                .preview_width = options.preview_width,
+                                .exposure = baked.given_exposure};
         output.outdate(kMatrixFile);
         written = write_light(output, files, edit.now, device ? &*device : nullptr,
                               light.irradiance, light.error, {}, stages);

@@ -12,6 +12,7 @@
 #include "base/images/image_files.h"
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/page_parts.h"
+#include "scene/gltf/webp.h"
 #include "scene/load/webp_image.h"
 
 namespace lumel {
@@ -157,33 +158,38 @@ std::set<std::size_t> images_of(const Json& texture)
 
 GlbBuilder::GlbBuilder(const GltfDocument& document) : json(document.json), document_(document) {}
 
-void GlbBuilder::release()
+void GlbBuilder::release(Pictures pictures)
 {
-    unpack_images();
+    is_webp_.assign(list(json, "images").size(), false);
+    look_at_images(pictures);
     free_accessors_ = free_elements("accessors", kEmptyAccessor, used_accessors);
     free_views_ = free_elements("bufferViews", kEmptyView, used_views);
     copy_views();
-    embed_images();
+    embed_images(pictures);
 }
 
-void GlbBuilder::unpack_images()
+/// Finds WebP images in buffers, and unpacks them for Pictures::plain.
+void GlbBuilder::look_at_images(Pictures pictures)
 {
     const auto images = json.find("images");
-    for (std::size_t i = 0; images != json.end() && i < images->size(); ++i) {
+    for (std::size_t i = 0; i < is_webp_.size(); ++i) {
         Json& image = (*images)[i];
         if (!image.contains("bufferView"))
             continue;
         const JsonView view(document_.path, image, "/images/" + std::to_string(i));
-        std::optional<Bytes> png;
         try {
-            png = plain_picture(buffer_view_bytes(document_, view.get("bufferView")), view.place());
+            const Bytes file = buffer_view_bytes(document_, view.get("bufferView"));
+            is_webp_[i] = is_webp(file);
+            if (pictures == Pictures::as_they_are)
+                continue;
+            if (auto png = plain_picture(file, view.place())) {
+                image.erase("bufferView");
+                unpacked_images_[i] = std::move(*png);
+                is_webp_[i] = false;
+            }
         } catch (const Error&) {
             continue;  // see embed_images()
         }
-        if (!png)
-            continue;
-        image.erase("bufferView");
-        unpacked_images_[i] = std::move(*png);
     }
 }
 
@@ -220,7 +226,7 @@ void GlbBuilder::copy_views()
     }
 }
 
-void GlbBuilder::embed_images()
+void GlbBuilder::embed_images(Pictures pictures)
 {
     const auto images = json.find("images");
     for (std::size_t i = 0; images != json.end() && i < images->size(); ++i) {
@@ -235,8 +241,10 @@ void GlbBuilder::embed_images()
         try {
             JsonView view(document_.path, image, "/images/" + std::to_string(i));
             file = read_uri(view.get("uri"), document_.path);
-            if (auto png = plain_picture(file, view.place()))
-                file = std::move(*png);
+            if (pictures == Pictures::plain)
+                if (auto png = plain_picture(file, view.place()))
+                    file = std::move(*png);
+            is_webp_[i] = is_webp(file);
         } catch (const Error&) {
             continue;  // the scene was read without it, so light does not depend on it
         }
@@ -317,6 +325,7 @@ std::size_t GlbBuilder::add_texture(const std::string& name, std::span<const std
 std::vector<std::uint8_t> GlbBuilder::finish()
 {
     pad(binary_, 0);
+    require_webp_images(json, is_webp_);
     json["asset"]["generator"] = "Lumel";
     json["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
     std::string text = json.dump();

@@ -13,6 +13,12 @@
 
 namespace lumel {
 
+/// Formats of images in a file.
+enum class Pictures {
+    as_they_are,  ///< byte for byte; WebP requires its extension
+    plain,        ///< PNG and JPEG, which all viewers read; WebP becomes PNG
+};
+
 /// glTF's numbers for the use of a bufferView.
 enum class ViewTarget { none = 0, vertices = 34962, indices = 34963 };
 
@@ -28,7 +34,7 @@ public:
 
     /// Drops the data of accessors and bufferViews that only the original JSON referred to, and
     /// embeds the files of all images. Images that cannot be read keep their URI. Call once.
-    void release();
+    void release(Pictures pictures = Pictures::as_they_are);
 
     /// Appends data as a new bufferView. stride: of vertex arrays [bytes], else 0.
     std::size_t add_view(std::span<const std::uint8_t> bytes, ViewTarget target,
@@ -47,11 +53,11 @@ public:
     std::vector<std::uint8_t> finish();
 
 private:
-    void unpack_images();
+    void look_at_images(Pictures pictures);
     std::set<std::size_t> free_elements(const char* name, const Json& empty,
                                         std::set<std::size_t> (*used_in)(const Json&));
     void copy_views();
-    void embed_images();
+    void embed_images(Pictures pictures);
     std::size_t append(std::span<const std::uint8_t> bytes);
     std::size_t add_image(const std::string& name, const char* type,
                           std::span<const std::uint8_t> file);
@@ -60,6 +66,7 @@ private:
     std::vector<std::uint8_t> binary_;
     std::set<std::size_t> free_views_, free_accessors_, free_textures_, free_images_;
     std::map<std::size_t, Bytes> unpacked_images_;  ///< PNGs, by image
+    std::vector<bool> is_webp_;                     ///< by image
 };
 
 /// All accessors used by meshes, skins and animations of a glTF.

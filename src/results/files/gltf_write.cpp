@@ -153,7 +153,7 @@ void write_baked_glb(const std::string& path, const GltfDocument& document, cons
 {
     const auto prepare = [&](GlbBuilder& builder, const auto& materials) {
         reduce_to_core(builder.json, materials);
-        builder.release();
+        builder.release(Pictures::plain);
         if (camera)
             add_camera(builder.json, *camera, scene.origin);
     };

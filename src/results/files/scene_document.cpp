@@ -1,6 +1,7 @@
 #include "results/files/scene_document.h"
 
 #include <algorithm>
+#include <numbers>
 #include <span>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -10,7 +11,14 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kAlignment = 4;  // of accessors [bytes]
+constexpr std::size_t kAlignment = 4;         // of accessors [bytes]
+constexpr double kInnerOfOuter = 1.0 - 1e-6;  // largest inner cone of a spot
+
+/// A name without bytes that are not UTF-8, which JSON cannot have.
+Json valid(const std::string& name)
+{
+    return Json::parse(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
 
 /// Builds the document, with all data in one buffer.
 class DocumentWriter {
@@ -87,7 +95,7 @@ private:
 
     static Json material_of(const Material& from)
     {
-        Json material = {{"name", from.name}, {"doubleSided", from.double_sided}};
+        Json material = {{"name", valid(from.name)}, {"doubleSided", from.double_sided}};
         Json& surface = material["pbrMetallicRoughness"] = {
             {"baseColorFactor",
              {from.base_color.r, from.base_color.g, from.base_color.b, from.base_color.a}},
@@ -141,19 +149,22 @@ private:
             if (number >= 0 || from.primitives.empty())
                 continue;
             number = int(json_["meshes"].size());
-            Json mesh = {{"name", from.name}};
+            Json mesh = {{"name", valid(from.name)}};
             for (const Primitive& primitive : from.primitives)
                 mesh["primitives"].push_back(primitive_of(primitive));
             json_["meshes"].push_back(std::move(mesh));
         }
     }
 
-    static Json placed(const std::string& name, const glm::mat4& transform)
+    /// A node in the file's world.
+    Json placed(const std::string& name, const glm::mat4& transform) const
     {
-        Json node = {{"name", name}};
-        if (transform != glm::mat4(1.0f))
+        Json node = {{"name", valid(name)}};
+        glm::dmat4 world(transform);
+        world[3] += glm::dvec4(scene_.origin, 0.0);
+        if (world != glm::dmat4(1.0))
             for (int i = 0; i < 16; ++i)
-                node["matrix"].push_back(glm::value_ptr(transform)[i]);
+                node["matrix"].push_back(glm::value_ptr(world)[i]);
         return node;
     }
 
@@ -173,14 +184,19 @@ private:
 
     void add_light(const PunctualLight& from)
     {
-        Json light = {
-            {"name", from.name}, {"color", json_array(from.color)}, {"intensity", from.intensity}};
+        // Colours of glTF are at most 1.
+        const float scale = std::max({from.color.r, from.color.g, from.color.b, 1.0f});
+        Json light = {{"name", valid(from.name)},
+                      {"color", json_array(from.color / scale)},
+                      {"intensity", from.intensity * scale}};
         if (from.range > 0.0f)
             light["range"] = from.range;
         if (from.kind == PunctualLight::Kind::spot) {
             light["type"] = "spot";
-            light["spot"] = {{"innerConeAngle", from.inner_cone},
-                             {"outerConeAngle", from.outer_cone}};
+            // glTF's are in doubles at most π/2, and the inner one is smaller.
+            const double outer = std::min(double(from.outer_cone), 0.5 * std::numbers::pi);
+            const double inner = std::min(double(from.inner_cone), outer * kInnerOfOuter);
+            light["spot"] = {{"innerConeAngle", inner}, {"outerConeAngle", outer}};
         } else {
             light["type"] = from.kind == PunctualLight::Kind::point ? "point" : "directional";
         }
@@ -216,8 +232,8 @@ private:
     std::vector<int> meshes_;  ///< numbers of the scene's meshes in the document; -1: left out
 };
 
-/// The scene's instances and primitives with their numbers in the document.
-Scene numbered(const Scene& scene)
+/// Instances and primitives with their numbers in the document.
+Scene renumbered(const Scene& scene)
 {
     Scene result;
     result.path = scene.path;
@@ -238,7 +254,7 @@ Scene numbered(const Scene& scene)
 
 SceneDocument document_of(const Scene& scene)
 {
-    return {DocumentWriter(scene).written(), numbered(scene)};
+    return {DocumentWriter(scene).written(), renumbered(scene)};
 }
 
 }  // namespace lumel

@@ -11,7 +11,7 @@ struct SceneDocument {
     GltfDocument document;
     /// Its instances and primitives, with their numbers in the document; without vertices and
     /// textures.
-    Scene numbered;
+    Scene scene;
 };
 
 /// Meshes in use, materials, textures and lights of a scene that was made in memory; without its

@@ -70,9 +70,11 @@ void read_densities(const JsonView& settings, AtlasOptions& options)
     });
 }
 
-/// Omitted if there are none, as in reports of older bakes.
-void write_kept_links(const BakeRecord& record, Json& settings)
+/// Settings that are omitted unless given, as in reports of older bakes.
+void write_given(const BakeRecord& record, Json& settings)
 {
+    if (record.given_exposure > 0.0f)
+        settings["exposure"] = shortest(record.given_exposure);
     if (record.keep_links > 0)
         settings["keep-links"] = record.keep_links;
     if (const auto* links = std::get_if<LinksOptions>(&record.solver.method);
@@ -80,8 +82,10 @@ void write_kept_links(const BakeRecord& record, Json& settings)
         settings["links"] = links->even_rays;
 }
 
-void read_kept_links(const JsonView& settings, BakeRecord& record)
+void read_given(const JsonView& settings, BakeRecord& record)
 {
+    if (const auto exposure = settings.find("exposure"))
+        record.given_exposure = float(exposure->number(0.0, std::numeric_limits<float>::max()));
     if (const auto rays = settings.find("keep-links"))
         record.keep_links = std::uint32_t(rays->integer(1, kMaxStoredLinks));
     auto* links = std::get_if<LinksOptions>(&record.solver.method);
@@ -137,7 +141,7 @@ Report report_of(const BakeRecord& record)
     report.scene_hash = record.scene_hash;
     each_setting(record, FieldWriter(report.settings));
     write_densities(record.atlas, report.settings);
-    write_kept_links(record, report.settings);
+    write_given(record, report.settings);
     report.lights = light_settings(record.lights);
     report.solver = solver_settings(record.solver);
     report.atlas_width = report.atlas_height = record.pages.map_side();
@@ -165,7 +169,7 @@ BakeRecord record_of(const JsonView& report, const std::string& folder)
     read_densities(report.get("settings"), record.atlas);
     record.lights = light_options_of(report.get("lights"), folder);
     record.solver = solver_options_of(report.get("solver"));
-    read_kept_links(report.get("settings"), record);
+    read_given(report.get("settings"), record);
 
     const FieldReader size(report.get("sizes"));
     int side = 0;

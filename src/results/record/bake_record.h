@@ -42,6 +42,7 @@ struct BakeRecord {
     bool keep_lights = false;
     LightmapFormat lightmap_format = LightmapFormat::ktx2;
     int baked_size = kBakedSize;
+    float given_exposure = 0.0f;   ///< by the user [m²/cd]; 0: fitted
     std::uint32_t keep_links = 0;  ///< stored rays per lumel, 0: none
 
     Pages pages;                    ///< pages of the square atlas

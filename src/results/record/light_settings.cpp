@@ -67,6 +67,38 @@ double radians_in(const JsonView& object, const char* name, double most)
     return glm::radians(object.get(name).number(-most, most));
 }
 
+Json sun_settings(const SunPosition& sun)
+{
+    return {{"azimuth", degrees_of(sun.azimuth)}, {"elevation", degrees_of(sun.elevation)}};
+}
+
+SunPosition sun_of(const JsonView& settings)
+{
+    return {radians_in(settings, "azimuth", kMaxDegrees),
+            radians_in(settings, "elevation", kRightAngle)};
+}
+
+Json cie_settings(const CieSky& sky)
+{
+    if (sky.type == kOvercastType)
+        return {{"overcast", shortest(sky.lux)}};
+    Json settings = {{"cie", sky.type}, {"lux", shortest(sky.lux)}};
+    if (sky.sun)
+        settings["sun"] = sun_settings(*sky.sun);
+    return settings;
+}
+
+CieSky cie_sky_of(const JsonView& settings)
+{
+    if (const auto overcast = settings.find("overcast"))
+        return {.lux = float(overcast->number(0.0, kMax))};
+    CieSky sky{.type = int(settings.get("cie").integer(1, kOvercastType)),
+               .lux = float(settings.get("lux").number(0.0, kMax))};
+    if (const auto sun = settings.find("sun"))
+        sky.sun = sun_of(*sun);
+    return sky;
+}
+
 void check_file(const std::string& path)
 {
     std::error_code ignored;
@@ -85,15 +117,14 @@ Json light_settings(const LightOptions& options)
         settings["sky"] = {{"file", absolute(options.sky_file)}};
     else if (options.sky_color)
         settings["sky"] = {{"radiance", color_of(*options.sky_color)}};
-    else if (options.overcast)
-        settings["sky"] = {{"overcast", shortest(*options.overcast)}};
+    else if (options.cie)
+        settings["sky"] = cie_settings(*options.cie);
     if (options.sky_scale != 1.0f)
         settings["sky-scale"] = shortest(options.sky_scale);
     if (options.sky_rotation != 0.0)
         settings["sky-rotation"] = degrees_of(options.sky_rotation);
     if (const auto& sun = options.sun)
-        settings["sun"] = {{"azimuth", degrees_of(sun->azimuth)},
-                           {"elevation", degrees_of(sun->elevation)}};
+        settings["sun"] = sun_settings(*sun);
     if (const auto& seen = options.sun_seen)
         settings["sun"].update(
             {{"latitude", seen->latitude}, {"longitude", seen->longitude}, {"time", seen->time}});
@@ -114,8 +145,8 @@ LightOptions light_options_of(const JsonView& settings, const std::string& folde
     if (const auto sky = settings.find("sky")) {
         if (const auto file = sky->find("file"))
             options.sky_file = path_in(folder, file->string());
-        else if (const auto overcast = sky->find("overcast"))
-            options.overcast = float(overcast->number(0.0, kMax));
+        else if (sky->find("cie") || sky->find("overcast"))
+            options.cie = cie_sky_of(*sky);
         else
             options.sky_color = color_of(sky->get("radiance"));
     }
@@ -124,8 +155,7 @@ LightOptions light_options_of(const JsonView& settings, const std::string& folde
     if (settings.find("sky-rotation"))
         options.sky_rotation = radians_in(settings, "sky-rotation", kMaxDegrees);
     if (const auto sun = settings.find("sun")) {
-        options.sun = SunPosition{radians_in(*sun, "azimuth", kMaxDegrees),
-                                  radians_in(*sun, "elevation", kRightAngle)};
+        options.sun = sun_of(*sun);
         if (const auto time = sun->find("time"))
             options.sun_seen = {sun->get("latitude").number(-kRightAngle, kRightAngle),
                                 sun->get("longitude").number(-kHalfTurn, kHalfTurn),

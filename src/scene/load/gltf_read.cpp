@@ -162,17 +162,16 @@ void write_warnings(const Notes& notes, const MaterialList& looks, Scene& scene)
         scene.warnings.emplace_back("base colours outside 0 to 1 were clamped");
 }
 
-Scene read_scene(const std::string& path, MaterialModel model)
+Scene read_scene(const GltfDocument& document, MaterialModel model)
 {
-    const GltfDocument document = load_gltf_document(path);
     Scene scene;
-    scene.path = path;
+    scene.path = document.path;
     scene.model = model;
     Notes notes;
     std::vector<PlacedNode> nodes = place_nodes(document);
     read_geometry(document, nodes, scene, notes);
     if (scene.instances.empty())
-        throw Error(ErrorKind::input, path,
+        throw Error(ErrorKind::input, scene.path,
                     "its scene shows no triangles, there is nothing to bake");
     recentre(scene, nodes);
     const MaterialList looks = read_looks(document, model, scene, notes);
@@ -188,9 +187,18 @@ Scene read_scene(const std::string& path, MaterialModel model)
 Scene read_gltf(const std::string& path, MaterialModel model)
 {
     try {
-        return read_scene(path, model);
+        return read_scene(load_gltf_document(path), model);
     } catch (const std::bad_alloc&) {
         throw Error(ErrorKind::input, path, "needs more memory than there is");
+    }
+}
+
+Scene read_gltf(const GltfDocument& document, MaterialModel model)
+{
+    try {
+        return read_scene(document, model);
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorKind::input, document.path, "needs more memory than there is");
     }
 }
 

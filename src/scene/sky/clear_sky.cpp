@@ -1,15 +1,12 @@
 // Sky of a cloudless day. The luminance distribution is the CIE standard clear sky of low turbidity
-// ([CIE03] type 12), with Z the angle from the zenith and χ from the sun:
-//
-//     L ∝ (1 + a exp(b / cos Z)) (1 + c (exp(d χ) − exp(d π/2)) + e cos²χ)
-//     a = −1,  b = −0.32,  c = 10,  d = −3,  e = 0.45
-//
-// Its level, and the sun's, are the mean of clear days by [IES84], with the elevation γ:
+// ([CIE03] type 12). Its level, and the sun's, are the mean of clear days by [IES84], with the
+// elevation γ:
 //
 //     sky on a horizontal plane   0.8 + 15.5 √(sin γ)      [klx]
 //     sun on a plane that faces it   127.5 exp(−0.21 / sin γ)   [klx]
 //
-// Its colour is the chromaticity of [PSS99] for turbidity 2.5: x and y have Perez' form
+// Its colour is the chromaticity of [PSS99] for turbidity 2.5: x and y have Perez' form, with Z the
+// angle from the zenith and χ from the sun:
 //
 //     F(Z, χ) = (1 + A exp(B / cos Z)) (1 + C exp(D χ) + E cos²χ)
 //     x = x_zenith F(Z, χ) / F(0, Z_sun)
@@ -25,23 +22,16 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/core/luminance.h"
+#include "scene/sky/cie_sky.h"
 
 namespace lumel {
 namespace {
 
 constexpr int kClearWidth = 512;   ///< texels of 0.7°; the sky varies over 10°
 constexpr int kClearHeight = 256;  ///< the lower half is the ground
+constexpr int kClearType = 12;     ///< of the CIE
 constexpr double kTurbidity = 2.5;
 constexpr double kLux = 1000.0;  ///< per klx
-
-double relative_luminance(double cos_zenith, double from_sun)
-{
-    const double gradation = 1.0 - std::exp(-0.32 / cos_zenith);
-    const double cosine = std::cos(from_sun);
-    return gradation *
-           (1.0 + 10.0 * (std::exp(-3.0 * from_sun) - std::exp(-1.5 * std::numbers::pi)) +
-            0.45 * cosine * cosine);
-}
 
 /// A chromaticity coordinate of [PSS99]. Perez coefficients are slope × turbidity + offset; the
 /// zenith is a cubic in the sun's angle with coefficients quadratic in turbidity.
@@ -130,7 +120,7 @@ Sky clear_sky(const SunPosition& sun)
             const glm::vec3 color = color_of(kX.at(direction.y, from_sun, sun_zenith),
                                              kY.at(direction.y, from_sun, sun_zenith));
             sky.radiance[std::size_t(row) * kClearWidth + std::size_t(column)] =
-                float(relative_luminance(direction.y, from_sun)) * color;
+                float(cie_luminance(kClearType, direction.y, from_sun)) * color;
         }
     const auto level = float(clear_sky_illuminance(sun.elevation) / luminance(sky_irradiance(sky)));
     for (glm::vec3& radiance : sky.radiance)

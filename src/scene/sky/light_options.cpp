@@ -13,7 +13,6 @@
 #include "scene/load/albedo_cap.h"
 #include "scene/load/ies.h"
 #include "scene/sky/clear_sky.h"
-#include "scene/sky/overcast_sky.h"
 #include "scene/sky/sky_file.h"
 #include "scene/values/scene_hash.h"
 
@@ -46,21 +45,81 @@ Sky even_sky(const glm::vec3& radiance)
     return sky;
 }
 
-constexpr const char* kOvercast = "overcast";  ///< argument of --sky
+constexpr std::string_view kOvercast = "overcast", kCie = "cie:";  ///< arguments of --sky
 /// Maximum illuminance of a sky [lx]: an open plane under uniform kMaxLuminance.
 constexpr double kMaxLux = glm::pi<double>() * double(kMaxLuminance);
 
+/// Illuminance in a text [lx]; nullopt if it is none.
+std::optional<float> lux_of(std::string_view text)
+{
+    const auto lux = number_of(text);
+    if (!lux || !(*lux > 0.0) || *lux > kMaxLux || !(float(*lux) > 0.0f))
+        return std::nullopt;
+    return float(*lux);
+}
+
 /// Parses "overcast" or "overcast:LUX".
-float overcast_lux(const std::string& text)
+CieSky overcast_of(const std::string& text)
 {
     if (text == kOvercast)
-        return kOvercastLux;
-    const auto lux =
-        number_of(std::string_view(text).substr(std::string_view(kOvercast).size() + 1));
-    if (!lux || !(*lux > 0.0) || *lux > kMaxLux || !(float(*lux) > 0.0f))
+        return {};
+    const auto lux = lux_of(std::string_view(text).substr(kOvercast.size() + 1));
+    if (!lux)
         refuse("--sky", quoted(text) + " is not of the form overcast:LUX, with the illuminance of "
                                        "an open horizontal plane");
-    return float(*lux);
+    return {.lux = *lux};
+}
+
+/// Parses "AZIMUTH,ELEVATION" of a sun above the horizon.
+std::optional<SunPosition> sun_of_sky(const std::string& text)
+{
+    const std::vector<std::string> parts = split(text);
+    const auto azimuth = number_of(parts[0]);
+    const auto elevation = parts.size() == 2 ? number_of(parts[1]) : std::nullopt;
+    if (!azimuth || !elevation || !(*elevation >= 0.0 && *elevation <= 90.0))
+        return std::nullopt;
+    return SunPosition{glm::radians(*azimuth), glm::radians(*elevation)};
+}
+
+/// Parses "cie:N", with ":LUX" and "@AZIMUTH,ELEVATION" behind it or not.
+CieSky cie_sky_of(const std::string& text)
+{
+    const std::size_t at = text.find('@'), colon = text.find(':', kCie.size());
+    const std::string head = text.substr(0, at);
+    const auto type = number_of(std::string_view(head).substr(kCie.size(), colon - kCie.size()));
+    CieSky sky;
+    bool is_good = type && *type >= 1.0 && *type <= kOvercastType && *type == std::floor(*type);
+    if (is_good)
+        sky.type = int(*type);
+    if (colon < head.size()) {
+        const auto lux = lux_of(std::string_view(head).substr(colon + 1));
+        sky.lux = lux.value_or(sky.lux);
+        is_good = is_good && lux;
+    }
+    if (at != std::string::npos) {
+        sky.sun = sun_of_sky(text.substr(at + 1));
+        is_good = is_good && sky.sun;
+    }
+    if (!is_good)
+        refuse("--sky", quoted(text) + " is not of the form cie:N, cie:N:LUX or "
+                                       "cie:N:LUX@AZIMUTH,ELEVATION, with N from 1 to 16, the "
+                                       "illuminance of an open horizontal plane, and the sun at or "
+                                       "above the horizon");
+    return sky;
+}
+
+/// With the place of the sun that it depends on.
+CieSky placed(CieSky sky, const std::optional<SunPosition>& sun)
+{
+    if (!sky.sun)
+        sky.sun = sun;
+    const std::string name = std::string(kCie) + std::to_string(sky.type);
+    if (depends_on_sun(sky.type) && !sky.sun)
+        refuse("--sky", name + " is brightest about the sun: add --sun, or write " + name +
+                            "@AZIMUTH,ELEVATION for the sky alone");
+    if (depends_on_sun(sky.type) && sky.sun->elevation < 0.0)
+        refuse("--sky", name + " needs a sun above the horizon");
+    return sky;
 }
 
 /// The sun after --sky-rotation; azimuths are clockwise.
@@ -78,8 +137,8 @@ void add_sky(Scene& scene, const LightOptions& options)
         scene.sky = read_sky(options.sky_file);
     else if (options.sky_color)
         scene.sky = even_sky(*options.sky_color);
-    else if (options.overcast)
-        scene.sky = overcast_sky(*options.overcast);
+    else if (options.cie)
+        scene.sky = image_of(placed(*options.cie, options.sun));
     else if (options.sun)
         scene.sky = clear_sky(*options.sun);
     if (options.sky_rotation != 0.0)
@@ -193,7 +252,11 @@ void add_lights(Scene& scene, const LightOptions& options)
 void set_sky(LightOptions& options, const std::string& text)
 {
     if (text == kOvercast || text.starts_with(std::string(kOvercast) + ":")) {
-        options.overcast = overcast_lux(text);
+        options.cie = overcast_of(text);
+        return;
+    }
+    if (text.starts_with(kCie)) {
+        options.cie = cie_sky_of(text);
         return;
     }
     const std::vector<std::string> parts = split(text);

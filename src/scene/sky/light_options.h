@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/sky/cie_sky.h"
 #include "scene/sky/sun.h"
 #include "scene/values/scene.h"
 
@@ -25,9 +26,8 @@ struct SunSighting {
 struct LightOptions {
     std::string sky_file;                ///< see read_sky; empty: none
     std::optional<glm::vec3> sky_color;  ///< uniform radiance [cd/m²], if no file
-    std::optional<float>
-        overcast;  ///< illuminance of an open plane under the CIE overcast sky [lx], if neither
-    std::optional<SunPosition> sun;  ///< sun of a clear day; also sets the sky if none is given
+    std::optional<CieSky> cie;           ///< if neither; without a sun that of `sun` counts
+    std::optional<SunPosition> sun;      ///< sun of a clear day; also sets the sky if none is given
     std::optional<SunSighting> sun_seen;  ///< source of `sun`, for the record only
     float sky_scale = 1.0f;               ///< factor for the sky, not for the sun
     double sky_rotation = 0.0;            ///< about +y, counter-clockwise from above [rad]
@@ -41,8 +41,9 @@ struct LightOptions {
 /// Throws Error{input} for unreadable files and unknown lights.
 void add_lights(Scene& scene, const LightOptions& options);
 
-/// Parses "R,G,B" [cd/m²] as a colour, "overcast" or "overcast:LUX" as the overcast sky, other
-/// texts as a file. Throws Error{input}.
+/// Parses "R,G,B" [cd/m²] as a colour, "cie:N", "cie:N:LUX" and "cie:N:LUX@AZIMUTH,ELEVATION"
+/// [degrees] as a sky of the CIE, "overcast" and "overcast:LUX" as the overcast one, other texts as
+/// a file. Throws Error{input}.
 void set_sky(LightOptions& options, const std::string& text);
 
 /// Parses "AZIMUTH,ELEVATION" [degrees] or "LATITUDE,LONGITUDE,DATETIME" [degrees north and east,

@@ -14,6 +14,8 @@
 
 namespace lumel {
 
+struct GltfDocument;
+
 /// 8-bit RGBA, top row first, as in the file (sRGB-coded colour).
 struct Texture {
     int width = 0;
@@ -157,6 +159,8 @@ struct Scene {
 /// Reads glTF 2.0 (.gltf with its files, or .glb). Throws Error{input} with file, JSON pointer and
 /// reason for invalid or unsupported content.
 Scene read_gltf(const std::string& path, MaterialModel model = MaterialModel::diffuse);
+/// Reads a document, the file of document.path. Throws likewise.
+Scene read_gltf(const GltfDocument& document, MaterialModel model = MaterialModel::diffuse);
 
 /// Index of the first instance with this name. Throws Error{input} if there is none.
 std::uint32_t find_instance(const Scene& scene, const std::string& name);

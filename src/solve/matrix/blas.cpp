@@ -1,5 +1,5 @@
-// OpenBLAS is opened by the first call: with what it needs it takes 40 MB, and only matrices use
-// it.
+// OpenBLAS is opened when it is needed: it and its dependencies have 40 MB, and only method
+// "matrix" uses it.
 
 #include "solve/matrix/blas.h"
 
@@ -29,8 +29,8 @@ void* open_library()
 {
     void* const library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
     if (!library)
-        throw Error(ErrorKind::device, kLibrary,
-                    std::string("cannot be loaded; install OpenBLAS (Debian package "
+        throw Error(ErrorKind::input, kLibrary,
+                    std::string("cannot be loaded, but the matrix needs OpenBLAS (Debian package "
                                 "libopenblas0-pthread): ") +
                         dlerror());
     return library;
@@ -53,7 +53,7 @@ struct OpenBlas {
     {
         const auto function = reinterpret_cast<Function>(dlsym(library, name));
         if (!function)
-            throw Error(ErrorKind::device, kLibrary, std::string("has no function ") + name);
+            throw Error(ErrorKind::input, kLibrary, std::string("has no function ") + name);
         return function;
     }
 };
@@ -107,6 +107,11 @@ void eigenvectors(std::span<float> a, std::uint32_t n)
         std::swap_ranges(a.begin() + std::ptrdiff_t(row * n),
                          a.begin() + std::ptrdiff_t((row + 1) * n),
                          a.begin() + std::ptrdiff_t((n - 1 - row) * n));
+}
+
+void open()
+{
+    openblas();
 }
 
 std::string openblas_version()

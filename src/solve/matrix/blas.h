@@ -1,6 +1,6 @@
 #pragma once
 // Dense linear algebra by the system's OpenBLAS. All matrices are row-major, without gaps. Throws
-// Error{device} if it cannot be loaded.
+// Error{input} if it cannot be loaded.
 
 #include <cstdint>
 #include <span>
@@ -30,6 +30,9 @@ bool solve_from_right(std::span<float> a, std::span<float> b, std::uint32_t n);
 
 /// a [n][n], symmetric, becomes its eigenvectors, one a row, that of the largest eigenvalue first.
 void eigenvectors(std::span<float> a, std::uint32_t n);
+
+/// Loads the library now, for work that will need it. Without this the first call does.
+void open();
 
 /// "0.3.21"; empty before the first of these calls.
 std::string openblas_version();

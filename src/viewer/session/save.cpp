@@ -184,7 +184,7 @@ LightOptions lights_as_they_are(const ViewSession& session)
         refuse("a coloured sky cannot be saved, only a dimmed one");
     if (session.sky_angle() == 0.0)
         return lights;
-    if (ours && lights.sky_file.empty() && !lights.sky_color && !lights.overcast)
+    if (ours && lights.sky_file.empty() && !lights.sky_color && !lights.cie)
         refuse("a clear sky turned away from its sun cannot be saved");
     lights.sky_rotation += session.sky_angle();
     if (ours)

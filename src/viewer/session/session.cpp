@@ -351,7 +351,7 @@ void ViewSession::place_sky()
 {
     const LightOptions& lights = options_.lights;
     const bool with_sun = lights.sun && lights.sky_file.empty() && !lights.sky_color &&
-                          !lights.overcast && !shown_.sky.empty();
+                          !lights.cie && !shown_.sky.empty();
     if (!with_sun) {
         live_.turn_sky(sky_angle_);
         return note_edit();

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "meter.h"
-#include "scene/sky/overcast_sky.h"
+#include "scene/sky/cie_sky.h"
 
 using namespace lumel;
 using namespace lumel::test;
@@ -22,7 +22,7 @@ const double kVertical = 3.0 / 14.0 + 4.0 / (7.0 * kPi);
 
 void add_sky(Scene& scene)
 {
-    scene.sky = overcast_sky(float(kLux));
+    scene.sky = image_of({.lux = float(kLux)});
 }
 
 /// A patch far below, so that there is a scene and nothing of it is seen.
@@ -88,7 +88,7 @@ TEST(OvercastSky, GivesAnOpenHorizontalPlaneWhatWasAskedFor)
 {
     const MeteredRoom open({far_patch()}, 0.0f, add_sky);
     EXPECT_NEAR(open.read({{0.0f, 0.0f, 0.0f}}).lux, kLux, kAccuracy * kLux);
-    EXPECT_NEAR(sky_irradiance(overcast_sky(5000.0f)).g, 5000.0, 0.01);
+    EXPECT_NEAR(sky_irradiance(image_of({.lux = 5000.0f})).g, 5000.0, 0.01);
 }
 
 TEST(OvercastSky, GivesAVerticalPlaneTwoFifthsOfThat)
@@ -103,7 +103,7 @@ TEST(OvercastSky, GivesAVerticalPlaneTwoFifthsOfThat)
 
 TEST(OvercastSky, IsThreeTimesAsBrightAtTheZenithAsAtTheHorizon)
 {
-    const Sky sky = overcast_sky(float(kLux));
+    const Sky sky = image_of({.lux = float(kLux)});
     const double zenith = 9.0 * kLux / (7.0 * kPi);
     EXPECT_NEAR(sky_radiance(sky, {0.0f, 1.0f, 0.0f}).g, zenith, 0.001 * zenith);
     // The row above the horizon is 1.4° high.

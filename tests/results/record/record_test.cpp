@@ -139,10 +139,17 @@ TEST(BakeRecord, KeepsTheOvercastSky)
 {
     BakeRecord overcast = unusual();
     overcast.lights.sky_file.clear();
-    overcast.lights.overcast = 7654.0f;
+    overcast.lights.cie = CieSky{.lux = 7654.0f};
     const Json report = json_of(overcast);
     EXPECT_EQ(report["lights"]["sky"]["overcast"].dump(), "7654.0");
-    EXPECT_EQ(read(report).lights.overcast, 7654.0f);
+    EXPECT_EQ(read(report).lights.cie.value().lux, 7654.0f);
+    EXPECT_EQ(read(report).lights.cie.value().type, kOvercastType);
+    overcast.lights.cie = CieSky{.type = 12, .lux = 7654.0f, .sun = SunPosition{0.5, 0.25}};
+    const CieSky clear = read(json_of(overcast)).lights.cie.value();
+    EXPECT_EQ(clear.type, 12);
+    EXPECT_EQ(clear.lux, 7654.0f);
+    EXPECT_EQ(clear.sun.value().azimuth, 0.5);
+    EXPECT_EQ(clear.sun.value().elevation, 0.25);
 }
 
 TEST(BakeRecord, FilesOfLightsAreFoundFromAnyFolder)

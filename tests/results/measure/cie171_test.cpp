@@ -1,0 +1,174 @@
+// Cases of CIE 171:2006, "Test Cases to Assess the Accuracy of Lighting Computer Programs",
+// computed by their equations: closed forms, or quadrature of the formula of the sky. A black room
+// of 4 × 3 × 4 m with walls without thickness; points A to F up and down the wall z = 0, G to N
+// along the floor, all at x = 2 m.
+
+#include <array>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "meter.h"
+#include "scene/sky/cie_sky.h"
+
+namespace lumel::test {
+namespace {
+
+using support::Quad;
+
+constexpr float kWidth = 4.0f, kHeight = 3.0f;
+constexpr float kOff = 5e-4f;        ///< from meters to surfaces [m]
+constexpr double kPoint = 0.01;      ///< accuracy at a point
+constexpr double kRounding = 0.005;  ///< of the tables [% of the light outside]
+constexpr std::uint32_t kRays = 1 << 19;
+constexpr float kLux = 100.0f;  ///< outside, so that readings are per cent of it
+const SunPosition kSun{std::numbers::pi, std::numbers::pi / 3.0};  ///< south, 60° high
+
+Quad black(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v)
+{
+    return {.corner = corner, .edge_u = u, .edge_v = v, .albedo = glm::vec3(0.0f)};
+}
+
+/// Floor and walls.
+std::vector<Quad> open_room()
+{
+    const glm::vec3 x(kWidth, 0, 0), y(0, kHeight, 0), z(0, 0, kWidth);
+    return {black({0, 0, 0}, z, x), black({0, 0, 0}, x, y), black({0, 0, kWidth}, y, x),
+            black({0, 0, 0}, y, z), black({kWidth, 0, 0}, z, y)};
+}
+
+/// A ceiling with a square opening in its middle.
+void add_roof(std::vector<Quad>& room, float opening)
+{
+    const float side = 0.5f * (kWidth - opening), end = side + opening;
+    if (!(side > 0.0f))
+        return;
+    room.push_back(panel({0, kHeight, 0}, kWidth, side, 0.0f));
+    room.push_back(panel({0, kHeight, end}, kWidth, side, 0.0f));
+    room.push_back(panel({0, kHeight, side}, side, opening, 0.0f));
+    room.push_back(panel({end, kHeight, side}, side, opening, 0.0f));
+}
+
+/// A to N.
+std::array<MeterPoint, 14> points()
+{
+    std::array<MeterPoint, 14> all;
+    for (std::size_t i = 0; i < 6; ++i)
+        all[i] = {{2.0f, 2.75f - 0.5f * float(i), kOff}, {0, 0, 1}};
+    for (std::size_t i = 0; i < 8; ++i)
+        all[6 + i] = {{2.0f, kOff, 0.25f + 0.5f * float(i)}, {0, 1, 0}};
+    return all;
+}
+
+/// expected: at points().
+void expect_light(const MeteredRoom& room, const std::array<double, 14>& expected,
+                  std::uint32_t rays)
+{
+    const std::array<MeterPoint, 14> all = points();
+    for (std::size_t i = 0; i < all.size(); ++i)
+        EXPECT_NEAR(room.read(all[i], rays).lux, expected[i], kPoint * expected[i] + kRounding)
+            << char('A' + i);
+}
+
+/// A sky through an unglazed opening in the roof: 100 E / E_outside.
+struct RoofOpening {
+    int sky;
+    float opening;  ///< side [m]
+    std::array<double, 14> expected;
+};
+
+class Case59 : public testing::TestWithParam<RoofOpening> {};
+
+TEST_P(Case59, TheSkyThroughTheRoof)
+{
+    std::vector<Quad> quads = open_room();
+    add_roof(quads, GetParam().opening);
+    const MeteredRoom room(quads, 0.0f, [&](Scene& scene) {
+        scene.sky = image_of({.type = GetParam().sky, .lux = kLux, .sun = kSun});
+    });
+    expect_light(room, GetParam().expected, kRays);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Skies, Case59,
+    testing::Values(RoofOpening{1,
+                                1,
+                                {.46, 1.64, 2.34, 2.26, 1.88, 1.47, 2.34, 3.11, 3.84, 4.29, 4.29,
+                                 3.84, 3.11, 2.34}},
+                    RoofOpening{5,
+                                1,
+                                {1.04, 2.39, 2.59, 2.20, 1.70, 1.27, 1.96, 2.52, 3.05, 3.37, 3.37,
+                                 3.05, 2.52, 1.96}},
+                    RoofOpening{12,
+                                1,
+                                {1.74, 3.76, 4.55, 4.61, 4.24, 3.63, 5.72, 6.00, 5.11, 3.97, 2.90,
+                                 2.03, 1.40, .96}},
+                    RoofOpening{16,
+                                1,
+                                {.56, 1.78, 2.32, 2.20, 1.82, 1.43, 2.29, 3.07, 3.82, 4.29, 4.29,
+                                 3.82, 3.07, 2.29}},
+                    RoofOpening{1,
+                                4,
+                                {35.82, 31.54, 26.79, 22.08, 17.87, 14.36, 31.86, 37.28, 41.25,
+                                 43.32, 43.32, 41.25, 37.28, 31.86}},
+                    RoofOpening{5,
+                                4,
+                                {45.12, 35.90, 27.99, 21.64, 16.72, 12.97, 26.80, 30.94, 33.98,
+                                 35.57, 35.57, 33.98, 30.94, 26.80}},
+                    RoofOpening{12,
+                                4,
+                                {67.28, 54.43, 44.20, 36.07, 29.52, 24.20, 42.28, 43.88, 43.49,
+                                 40.91, 35.90, 29.23, 22.57, 16.80}},
+                    RoofOpening{16,
+                                4,
+                                {37.36, 32.14, 26.72, 21.75, 17.50, 14.03, 31.35, 36.74, 40.68,
+                                 42.74, 42.74, 40.68, 36.74, 31.35}}),
+    [](const testing::TestParamInfo<RoofOpening>& test) {
+        return "Type" + std::to_string(test.param.sky) + "Side" +
+               std::to_string(int(test.param.opening));
+    });
+
+/// A Lambertian panel of 1 m² and 1000 cd/m² in the middle of the ceiling.
+TEST(Case53, AnAreaSource)
+{
+    std::vector<Quad> quads = open_room();
+    quads.push_back(panel({1.5f, kHeight, 1.5f}, 1.0f, 1.0f, 0.0f, 1000.0f * float(kPi)));
+    expect_light(MeteredRoom(quads, 0.0f, kNothingElse),
+                 {32.677, 75.194, 81.323, 69.061, 53.404, 40.002, 61.424, 79.255, 95.667, 105.778,
+                  105.778, 95.667, 79.255, 61.424},
+                 kManyRays);
+}
+
+/// A horizontal square of 4 m at the floor that sends 100 lm/m²: points of the wall above it.
+TEST(Case56, ADiffuseReflector)
+{
+    std::vector<Quad> quads = open_room();
+    quads[0].emission = glm::vec3(100.0f);
+    const MeteredRoom room(quads, 0.0f, kNothingElse);
+    const std::array<std::pair<float, double>, 5> expected = {
+        {{0.75f, 35.901}, {1.25f, 27.992}, {1.75f, 21.639}, {2.25f, 16.716}, {2.75f, 12.967}}};
+    for (const auto& [y, light] : expected)
+        EXPECT_NEAR(room.read({{2.0f, y, kOff}, {0, 0, 1}}).lux, light, kPoint * light) << y;
+}
+
+/// The wall z = 4 sends 100 lm/m² past a black box of 1 m height between z = 2.5 and 2.7.
+TEST(Case57, ADiffuseReflectorBehindAnObstacle)
+{
+    std::vector<Quad> quads = open_room();
+    quads[2].emission = glm::vec3(100.0f);
+    const auto box = support::box_walls({0.0f, 0.0f, 2.5f}, {kWidth, 1.0f, 2.7f}, false,
+                                        {.albedo = glm::vec3(0.0f)});
+    quads.insert(quads.end(), box.begin(), box.end());
+    const MeteredRoom room(quads, 0.0f, kNothingElse);
+    const std::array<double, 9> expected = {16.071, 16.330, 15.399, 13.322, 10.317,
+                                            7.079,  3.382,  3.629,  3.013};
+    const std::array<MeterPoint, 14> all = points();
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_NEAR(room.read(all[i]).lux, expected[i], kPoint * expected[i]) << char('A' + i);
+    // J sees the upper edge of the wall just over the box, K nothing.
+    EXPECT_NEAR(room.read(all[9]).lux, 0.0, kRounding);
+    EXPECT_EQ(room.read(all[10]).lux, 0.0);
+}
+
+}  // namespace
+}  // namespace lumel::test
