@@ -221,25 +221,25 @@ struct SceneContent {
     Sky sky;
 };
 
-/// A standard sky of the CIE (ISO 15469): 1 to 4 are overcast, 5 is uniform, 6 to 10 are partly
-/// cloudy, 11 to 15 clear; 16 is the traditional overcast sky.
-struct CieSky {
-    int type = 16;
-    float lux = 10'000.0f;  ///< illuminance of an open horizontal plane [lx]
-};
-
 /// Sky and sun for Scene::add_daylight. The first of these that is given becomes the sky: the file,
 /// the luminance, the sky of the CIE, the clear sky of the sun, the scene's own.
 struct Daylight {
-    std::string sky_file;               ///< .exr or .hdr, latitude-longitude [cd/m²]; or empty
-    std::optional<Vec3> sky_luminance;  ///< uniform sky [cd/m²]
-    std::optional<CieSky> cie;          ///< needs the sun, except types 1, 3, 5 and 16
-    /// Sun of a clear day.
     struct Sun {
         double azimuth = 0.0;    ///< clockwise from north (-z), seen from above: east (+x) is π/2
         double elevation = 0.0;  ///< above the horizon, -π/2…π/2
     };
-    std::optional<Sun> sun;
+    /// A standard sky of the CIE (ISO 15469): 1 to 4 are overcast, 5 is uniform, 6 to 10 are partly
+    /// cloudy, 11 to 15 clear; 16 is the traditional overcast sky.
+    struct Cie {
+        int type = 16;
+        float lux = 10'000.0f;   ///< illuminance of an open horizontal plane [lx]
+        std::optional<Sun> sun;  ///< of the sky alone; else Daylight::sun. Types 1, 3, 5, 16: none
+    };
+
+    std::string sky_file;               ///< .exr or .hdr, latitude-longitude [cd/m²]; or empty
+    std::optional<Vec3> sky_luminance;  ///< uniform sky [cd/m²]
+    std::optional<Cie> cie;
+    std::optional<Sun> sun;  ///< of a clear day
     float sky_scale = 1.0f;  ///< factor for the sky, not for the sun
     double rotation = 0.0;   ///< rotation of sky and sun about +y, counter-clockwise from above
 };

@@ -134,12 +134,14 @@ LUMEL_C_API void lumel_free_scene(lumel_scene* scene); /* NULL: nothing */
 
 /* Sky and sun; the first of these that is given becomes the sky: the file, the luminance, the sky
  * of the CIE, the clear sky of the sun. The sun becomes a light. */
+enum { LUMEL_NO_SUN = 0, LUMEL_SUN = 1, LUMEL_SUN_OF_SKY = 2 };
+
 typedef struct lumel_daylight {
     const char* sky_file;       /* .exr or .hdr [cd/m²]; or NULL */
     const float* sky_luminance; /* [3] uniform sky [cd/m²]; or NULL */
     int cie_sky;                /* 1…16: standard sky of the CIE, 16 is overcast; 0: none */
     float cie_lux;              /* its illuminance of an open horizontal plane [lx]; 0: 10,000 */
-    int has_sun;                /* 0 or 1: of a clear day */
+    int has_sun;                /* LUMEL_SUN: of a clear day; LUMEL_SUN_OF_SKY: of cie_sky alone */
     double sun_azimuth;         /* clockwise from north (-z), seen from above */
     double sun_elevation;       /* above the horizon */
     float sky_scale;            /* factor for the sky; 0: 1 */

@@ -280,10 +280,16 @@ Daylight daylight_of(const lumel_daylight& from)
     if (from.sky_luminance)
         daylight.sky_luminance =
             Vec3{from.sky_luminance[0], from.sky_luminance[1], from.sky_luminance[2]};
-    if (from.cie_sky != 0)
-        daylight.cie = CieSky{from.cie_sky, from.cie_lux != 0.0f ? from.cie_lux : CieSky{}.lux};
-    if (from.has_sun != 0)
-        daylight.sun = Daylight::Sun{from.sun_azimuth, from.sun_elevation};
+    const Daylight::Sun sun{from.sun_azimuth, from.sun_elevation};
+    if (from.cie_sky != 0) {
+        daylight.cie = Daylight::Cie{.type = from.cie_sky};
+        if (from.cie_lux != 0.0f)
+            daylight.cie->lux = from.cie_lux;
+        if (from.has_sun == LUMEL_SUN_OF_SKY)
+            daylight.cie->sun = sun;
+    }
+    if (from.has_sun == LUMEL_SUN)
+        daylight.sun = sun;
     if (from.sky_scale != 0.0f)
         daylight.sky_scale = from.sky_scale;
     daylight.rotation = from.rotation;

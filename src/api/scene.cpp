@@ -19,6 +19,14 @@ void refuse(const std::string& what)
     throw lumel::Error(lumel::ErrorKind::input, "Daylight", what);
 }
 
+SunPosition checked(const Daylight::Sun& sun)
+{
+    if (!std::isfinite(sun.azimuth) || !(std::abs(sun.elevation) <= std::numbers::pi / 2.0))
+        refuse("the elevation of the sun must lie between -pi/2 and pi/2, its azimuth must be a "
+               "number");
+    return {sun.azimuth, sun.elevation};
+}
+
 LightOptions options_of(const Daylight& daylight)
 {
     LightOptions options;
@@ -30,14 +38,12 @@ LightOptions options_of(const Daylight& daylight)
             cie->lux > kLargestLux)
             refuse("cie: the type must lie between 1 and 16, its illuminance above 0 and at most "
                    "1e9 lx");
-        options.cie = lumel::CieSky{.type = cie->type, .lux = cie->lux, .sun = {}};
+        options.cie = CieSky{.type = cie->type, .lux = cie->lux, .sun = {}};
+        if (cie->sun)
+            options.cie->sun = checked(*cie->sun);
     }
-    if (const auto& sun = daylight.sun) {
-        if (!std::isfinite(sun->azimuth) || !(std::abs(sun->elevation) <= std::numbers::pi / 2.0))
-            refuse("the elevation of the sun must lie between -pi/2 and pi/2, its azimuth must be "
-                   "a number");
-        options.sun = SunPosition{sun->azimuth, sun->elevation};
-    }
+    if (daylight.sun)
+        options.sun = checked(*daylight.sun);
     if (!std::isfinite(daylight.sky_scale) || daylight.sky_scale < 0.0f)
         refuse("sky_scale must be a number of 0 or more");
     if (!std::isfinite(daylight.rotation))

@@ -287,6 +287,11 @@ TEST(LumelC, TakesSkiesOfTheCie)
     expect_refusal(lumel_add_daylight(scene.get(), &daylight), LUMEL_BAD_INPUT, {"cie:12", "sun"});
     daylight.cie_sky = 17;
     expect_refusal(lumel_add_daylight(scene.get(), &daylight), LUMEL_BAD_INPUT, {"16"});
+    daylight.cie_sky = 12;
+    daylight.has_sun = LUMEL_SUN_OF_SKY;
+    daylight.sun_elevation = 0.5;
+    EXPECT_EQ(lumel_add_daylight(scene.get(), &daylight), LUMEL_OK) << lumel_message();
+    daylight.has_sun = LUMEL_NO_SUN;
     daylight.cie_sky = 3;
     EXPECT_EQ(lumel_add_daylight(scene.get(), &daylight), LUMEL_OK) << lumel_message();
 }

@@ -118,9 +118,22 @@ std::vector<std::uint32_t> parts_of_triangles(const Pages& pages, const Surface&
     return parts;
 }
 
-// The file's primitive as a triangle list with vertices split as in the surface.
+/// True for an attribute that affects how a material shows, if it has no normal texture.
+bool is_visible(const std::string& attribute, const Json& material)
+{
+    if (attribute.starts_with("TEXCOORD_"))
+        return std::ranges::any_of(texcoords_read_by(material), [&](int number) {
+            return attribute == "TEXCOORD_" + std::to_string(number);
+        });
+    if (attribute.starts_with("COLOR_"))  // of black, but for its alpha
+        return material.value("alphaMode", "OPAQUE") != "OPAQUE";
+    return attribute != "TANGENT";
+}
+
+// The file's primitive as a triangle list with vertices split as in the surface. material: its
+// material in the output, if only visible attributes are kept.
 Json split_primitive(const Json& original, const BakedPrimitive& baked, const Surface& surface,
-                     bool turned, Places& lightmap, VertexGather& gather)
+                     bool turned, const Json* material, Places& lightmap, VertexGather& gather)
 {
     const auto gathered = [&](const Json& accessor, const std::string& semantic) {
         return turned ? gather.gather_turned(accessor, surface.source_vertex, semantic)
@@ -137,12 +150,17 @@ Json split_primitive(const Json& original, const BakedPrimitive& baked, const Su
             continue;
         if (name == "TEXCOORD_1")
             kept_as = "TEXCOORD_" + std::to_string(baked.moved_texcoord);
-        attributes[kept_as] = gathered(accessor, name);
+        if (!material || is_visible(kept_as, *material))
+            attributes[kept_as] = gathered(accessor, name);
     }
     if (primitive.contains("targets"))
-        for (Json& target : primitive["targets"])
-            for (auto& [name, accessor] : target.items())
-                accessor = gathered(accessor, name);
+        for (Json& target : primitive["targets"]) {
+            Json kept = Json::object();
+            for (const auto& [name, accessor] : target.items())
+                if (!material || is_visible(name, *material))
+                    kept[name] = gathered(accessor, name);
+            target = std::move(kept);
+        }
 
     // glTF requires a TEXCOORD_0 beside a TEXCOORD_1; nothing uses it here.
     const std::size_t place = lightmap.accessor_of(surface);
@@ -218,7 +236,7 @@ void cut_baked_primitives(Json& json, const std::vector<BakedPrimitive>& baked)
 }
 
 void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitive>& baked,
-                            const Atlas& atlas)
+                            const Atlas& atlas, Attributes kept)
 {
     // Makes a copy of the mesh for each node.
     std::map<std::size_t, Json> mesh_of_node;
@@ -229,7 +247,9 @@ void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitiv
         const auto mesh = mesh_of_node.try_emplace(b.node, original).first;
         const Json& source = original["primitives"][b.primitive];
         Json& primitives = mesh->second["primitives"];
-        Json front = split_primitive(source, b, *b.surface, false, places, gather);
+        const Json* const material =
+            kept == Attributes::visible ? &builder.json["materials"][b.material.value()] : nullptr;
+        Json front = split_primitive(source, b, *b.surface, false, material, places, gather);
         if (b.part > 0)
             primitives.push_back(std::move(front));
         else
@@ -237,7 +257,8 @@ void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitiv
         if (b.part == 0 && !b.triangles.empty())
             mark_order(primitives[b.primitive], parts_of_triangles(atlas.pages, *b.surface));
         if (b.back)
-            primitives.push_back(split_primitive(source, b, *b.back, true, places, gather));
+            primitives.push_back(
+                split_primitive(source, b, *b.back, true, material, places, gather));
     }
 
     // The first copy replaces its mesh if nothing else needs that.

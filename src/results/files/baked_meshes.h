@@ -43,10 +43,16 @@ std::vector<BakedPrimitive> list_baked_primitives(const GltfDocument& document, 
 /// Empties primitives that are baked in all uses, so that their data can be released.
 void cut_baked_primitives(Json& json, const std::vector<BakedPrimitive>& baked);
 
+/// Vertex attributes of the triangle lists.
+enum class Attributes {
+    all,      ///< those of the file
+    visible,  ///< without tangents, colours and texture coordinates that the material does not read
+};
+
 /// Adds the split triangle lists: a mesh per instance, bound to its node. If the map has both
 /// sides, the front is single-sided, and its turned copy follows at the end of the mesh. Parts on
 /// further pages also follow there, with the vertices of the first.
 void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitive>& baked,
-                            const Atlas& atlas);
+                            const Atlas& atlas, Attributes kept);
 
 }  // namespace lumel

@@ -103,7 +103,7 @@ std::size_t add_lightmap(GlbBuilder& builder, const Image& map, float scale,
 /// builder and the materials by page.
 template <class Prepare, class Finish>
 void rewrite(const std::string& path, const GltfDocument& document, const Scene& scene,
-             const Atlas& atlas, const Prepare& prepare, const Finish& finish)
+             const Atlas& atlas, Attributes kept, const Prepare& prepare, const Finish& finish)
 try {
     GlbBuilder builder(document);
     std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
@@ -111,7 +111,7 @@ try {
     cut_baked_primitives(builder.json, baked);
     const auto materials = separate_materials(builder.json, baked);
     prepare(builder, materials);
-    place_baked_primitives(builder, baked, atlas);
+    place_baked_primitives(builder, baked, atlas, kept);
     finish(builder, materials);
     list_extensions(builder.json, document.json);
     const std::vector<std::uint8_t> file = builder.finish();
@@ -133,7 +133,7 @@ void write_scene_glb(const std::string& path, const GltfDocument& document, cons
         if (lights.camera)
             add_camera(builder.json, *lights.camera, scene.origin);
     };
-    rewrite(path, document, scene, atlas, prepare, [&](GlbBuilder& builder, const auto& materials) {
+    const auto finish = [&](GlbBuilder& builder, const auto& materials) {
         const float scale = lightmap_scale(map, lights.exposure);
         for (std::size_t page = 0; page < materials.size(); ++page) {
             if (lights.format != LightmapFormat::none)
@@ -144,7 +144,8 @@ void write_scene_glb(const std::string& path, const GltfDocument& document, cons
                               scale);
             tell_of_lightmap(builder.json, materials[page], atlas.pages, int(page));
         }
-    });
+    };
+    rewrite(path, document, scene, atlas, Attributes::all, prepare, finish);
 }
 
 void write_baked_glb(const std::string& path, const GltfDocument& document, const Scene& scene,
@@ -157,7 +158,7 @@ void write_baked_glb(const std::string& path, const GltfDocument& document, cons
         if (camera)
             add_camera(builder.json, *camera, scene.origin);
     };
-    rewrite(path, document, scene, atlas, prepare, [&](GlbBuilder& builder, const auto& materials) {
+    const auto finish = [&](GlbBuilder& builder, const auto& materials) {
         erase_extensions(builder.json);
         for (std::size_t page = 0; page < materials.size(); ++page) {
             const Image part = without_alpha(cut_page(atlas.pages, int(page), shown), 1.0f);
@@ -165,7 +166,8 @@ void write_baked_glb(const std::string& path, const GltfDocument& document, cons
                           builder.add_texture(page_name(atlas.pages, int(page), "baked light"),
                                               encode_png(part)));
         }
-    });
+    };
+    rewrite(path, document, scene, atlas, Attributes::visible, prepare, finish);
 }
 
 }  // namespace lumel

@@ -52,9 +52,9 @@ void write_scene_glb(const std::string& path, const GltfDocument& document, cons
 
 /// scene-baked.glb: core glTF that any viewer shows lit. Every baked material is black, fully
 /// metallic and rough, so that it reflects nothing, and emits an 8-bit sRGB texture on TEXCOORD_1.
-/// Cut-outs and blending keep their alpha. Lights and material extensions are removed. shown: light
-/// from surfaces, tone-mapped by tone_map, RGBA, of any density. camera: added as in scene.glb.
-/// Throws Error.
+/// Cut-outs and blending keep their alpha. Lights, material extensions and vertex attributes that
+/// nothing reads are removed. shown: light from surfaces, tone-mapped by tone_map, RGBA, of any
+/// density. camera: added as in scene.glb. Throws Error.
 void write_baked_glb(const std::string& path, const GltfDocument& document, const Scene& scene,
                      const Atlas& atlas, const Image& shown,
                      const std::optional<AddedCamera>& camera = {});

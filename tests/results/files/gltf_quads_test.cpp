@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -176,6 +177,42 @@ TEST_F(TwoQuads, TheBoundLightmapIsWithinAPercentOverTheWholeRangeAndClipsNothin
                 }
             EXPECT_GT(checked, given.size() / 2);
         }
+}
+
+TEST_F(TwoQuads, SceneBakedHasOnlyTheAttributesThatShow)
+{
+    Json json = file();
+    json["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 64}});
+    json["accessors"].push_back(
+        {{"bufferView", 2}, {"componentType", 5126}, {"count", 4}, {"type", "VEC4"}});
+    Json& primitive = json["meshes"][0]["primitives"][0];
+    for (const char* name : {"TANGENT", "COLOR_0", "_OWN"})
+        primitive["attributes"][name] = 2;
+    const auto attributes_of = [](const Json& written) {
+        std::set<std::string> names;
+        const Json& node = written["nodes"][0];
+        for (const auto& [name, accessor] :
+             written["meshes"][node["mesh"].get<std::size_t>()]["primitives"][0]["attributes"]
+                 .items())
+            names.insert(name);
+        return names;
+    };
+    EXPECT_EQ(attributes_of(lit(json)),
+              (std::set<std::string>{"POSITION", "TANGENT", "COLOR_0", "_OWN", "TEXCOORD_0",
+                                     "TEXCOORD_1"}));
+    const Json opaque = baked(json);
+    EXPECT_EQ(attributes_of(opaque),
+              (std::set<std::string>{"POSITION", "_OWN", "TEXCOORD_0", "TEXCOORD_1"}));
+    const Json& plain =
+        opaque["meshes"][opaque["nodes"][0]["mesh"].get<std::size_t>()]["primitives"][0];
+    EXPECT_EQ(plain["attributes"]["TEXCOORD_0"], plain["attributes"]["TEXCOORD_1"]);
+    // Colours and textures have alpha.
+    json["materials"][0]["alphaMode"] = "MASK";
+    const Json cut = baked(json);
+    EXPECT_EQ(attributes_of(cut),
+              (std::set<std::string>{"POSITION", "_OWN", "COLOR_0", "TEXCOORD_0", "TEXCOORD_1"}));
+    const Json& read = cut["meshes"][cut["nodes"][0]["mesh"].get<std::size_t>()]["primitives"][0];
+    EXPECT_NE(read["attributes"]["TEXCOORD_0"], read["attributes"]["TEXCOORD_1"]);
 }
 
 TEST_F(TwoQuads, WithoutAFormatNoMapIsInTheFile)
