@@ -28,9 +28,8 @@ extern "C" {
 
 typedef enum lumel_result {
     LUMEL_OK = 0,
-    LUMEL_BAD_INPUT = 1, /* invalid argument, file or scene */
-    LUMEL_BAD_DEVICE =
-        2, /* no usable device, it failed, or the memory of the machine does not suffice */
+    LUMEL_BAD_INPUT = 1,     /* invalid argument, file or scene */
+    LUMEL_BAD_DEVICE = 2,    /* no usable device, or it failed; or too little memory */
     LUMEL_BAD_OUTPUT = 3,    /* a file cannot be written */
     LUMEL_STOPPED = 4,       /* progress ended the bake before it had a solution */
     LUMEL_OUT_OF_MEMORY = 5, /* an allocation failed */
@@ -90,8 +89,7 @@ typedef struct lumel_mesh {
 typedef struct lumel_instance {
     const char* name; /* or NULL */
     const lumel_mesh* mesh;
-    float transform[16]; /* mesh to world, column by column: [12…14] is the place; zeros: the
-                            identity */
+    float transform[16]; /* mesh to world, by columns: [12…14] is the place; zeros: the identity */
 } lumel_instance;
 
 enum { LUMEL_POINT = 0, LUMEL_SPOT = 1, LUMEL_DIRECTIONAL = 2 };
