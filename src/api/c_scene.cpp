@@ -156,7 +156,7 @@ private:
     {
         used = indices;
         std::ranges::sort(used);
-        used.erase(std::ranges::unique(used).begin(), used.end());
+        used.erase(std::unique(used.begin(), used.end()), used.end());
         for (std::uint32_t& index : indices)
             index = std::uint32_t(std::ranges::lower_bound(used, index) - used.begin());
         Primitive primitive;
