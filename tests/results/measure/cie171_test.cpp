@@ -128,6 +128,125 @@ INSTANTIATE_TEST_SUITE_P(
                std::to_string(int(test.param.opening));
     });
 
+/// Black but for an opening in the wall z = 4; a ground outside sends three tenths of the light
+/// that it gets from an open sky. Through the whole wall all points of the wall see its horizon, so
+/// it is wide. (With the window, such a ground makes A and B 1.9 % too bright, by any number of
+/// rays.)
+std::vector<Quad> room_with_window(bool whole_wall)
+{
+    constexpr float kSent = 0.3f * kLux;
+    const float ground_side = whole_wall ? 2000.0f : 200.0f;
+    std::vector<Quad> room = open_room();
+    room.erase(room.begin() + 2);
+    room.push_back(panel({0, kHeight, 0}, kWidth, kWidth, 0.0f));
+    const auto wall = [&](float x1, float x2, float y1, float y2) {
+        room.push_back(black({x1, y1, kWidth}, {0, y2 - y1, 0}, {x2 - x1, 0, 0}));
+    };
+    if (!whole_wall) {
+        wall(0, kWidth, 0, 1);
+        wall(0, kWidth, 2, kHeight);
+        wall(0, 1, 1, 2);
+        wall(3, kWidth, 1, 2);
+    }
+    Quad ground = black({-0.5f * ground_side, 0, kWidth}, {0, 0, ground_side}, {ground_side, 0, 0});
+    ground.emission = glm::vec3(kSent);
+    room.push_back(ground);
+    return room;
+}
+
+/// Sky and ground through an unglazed opening in a wall: 100 E / E_outside.
+struct WallOpening {
+    int sky;
+    bool whole_wall;
+    std::array<double, 14> expected;
+};
+
+class Case511 : public testing::TestWithParam<WallOpening> {};
+
+TEST_P(Case511, SkyAndGroundThroughTheWall)
+{
+    const MeteredRoom room(room_with_window(GetParam().whole_wall), 0.0f, [&](Scene& scene) {
+        scene.sky = image_of({.type = GetParam().sky, .lux = kLux, .sun = kSun});
+    });
+    // C and D see the horizon through the window, where the smaller ground ends.
+    constexpr double kHorizon = 0.03;
+    const std::array<MeterPoint, 14> all = points();
+    const std::array<double, 14>& expected = GetParam().expected;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const bool sees_end = !GetParam().whole_wall && (i == 2 || i == 3);
+        EXPECT_NEAR(room.read(all[i], kRays).lux, expected[i],
+                    (sees_end ? kHorizon : kPoint) * expected[i] + kRounding)
+            << char('A' + i);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Skies, Case511,
+    testing::Values(WallOpening{5,
+                                false,
+                                {.95, 1.06, 1.79, 3.09, 3.54, 3.17, 1.27, 1.75, 2.49, 3.59, 5.18,
+                                 7.11, 7.99, 4.13}},
+                    WallOpening{12,
+                                false,
+                                {.95, 1.06, 2.38, 4.93, 5.81, 5.01, 2.00, 2.80, 4.06, 6.13, 9.54,
+                                 14.56, 16.37, 5.03}},
+                    WallOpening{16,
+                                false,
+                                {.95, 1.06, 1.27, 1.71, 2.06, 2.14, .94, 1.38, 2.07, 3.19, 4.97,
+                                 7.42, 9.11, 5.04}},
+                    WallOpening{5,
+                                true,
+                                {6.18, 8.96, 11.34, 13.22, 14.56, 15.41, 5.79, 7.63, 10.19, 13.77,
+                                 18.74, 25.47, 34.15, 44.49}},
+                    WallOpening{16,
+                                true,
+                                {5.25, 6.46, 7.71, 8.83, 9.72, 10.33, 4.50, 6.14, 8.53, 11.99,
+                                 16.95, 23.88, 33.03, 44.09}}),
+    [](const testing::TestParamInfo<WallOpening>& test) {
+        return "Type" + std::to_string(test.param.sky) +
+               (test.param.whole_wall ? "WholeWall" : "Window");
+    });
+
+/// The ceiling gets the light of the ground alone.
+TEST(Case511Ceiling, TheGroundThroughTheWall)
+{
+    for (const auto& [whole_wall, expected] :
+         {std::pair(false, std::array{.38, .53, .75, 1.08, 1.56, 2.13, 2.40, 1.24}),
+          std::pair(true, std::array{1.74, 2.29, 3.06, 4.13, 5.62, 7.64, 10.24, 13.35})}) {
+        const MeteredRoom room(room_with_window(whole_wall), 0.0f, kNothingElse);
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_NEAR(
+                room.read({{2.0f, kHeight - kOff, 0.25f + 0.5f * float(i)}, {0, -1, 0}}, kManyRays)
+                    .lux,
+                expected[i], kPoint * expected[i] + kRounding)
+                << whole_wall << char('G' + i);
+    }
+}
+
+/// A point of 1000 cd over the middle of a black floor: 3000 / d³.
+TEST(Case52, APointSource)
+{
+    const MeteredRoom room({open_room().front()}, 0.0f, [](Scene& scene) {
+        PunctualLight light{.kind = PunctualLight::Kind::point, .intensity = 1000.0f};
+        light.transform[3] = glm::vec4(2.0f, 3.0f, 2.0f, 1.0f);
+        scene.lights.push_back(light);
+    });
+    const std::array<std::array<double, 3>, 10> expected = {{{0, 0, 111.111},
+                                                             {.5, 0, 106.637},
+                                                             {1, 0, 94.868},
+                                                             {1.5, 0, 79.505},
+                                                             {.5, .5, 102.456},
+                                                             {1, .5, 91.419},
+                                                             {1.5, .5, 76.926},
+                                                             {1, 1, 82.230},
+                                                             {1.5, 1, 69.971},
+                                                             {1.5, 1.5, 60.481}}};
+    for (const auto& [x, z, light] : expected)
+        EXPECT_NEAR(room.read({{2.0f + float(x), kOff, 2.0f + float(z)}, {0, 1, 0}}).lux, light,
+                    kPoint * light)
+            << x << ' ' << z;
+}
+
 /// A Lambertian panel of 1 m² and 1000 cd/m² in the middle of the ceiling.
 TEST(Case53, AnAreaSource)
 {
