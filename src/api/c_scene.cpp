@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <optional>
 
 #include "api/c_calls.h"
 
@@ -24,7 +23,7 @@ std::string entry_of(const char* list, std::size_t number)
     return std::string(list) + "[" + std::to_string(number) + "]";
 }
 
-/// Before that many texels are read.
+/// Called before that many texels are copied.
 void check_sides(int width, int height, const std::string& place)
 {
     constexpr int kLargestSide = 1 << 16;
@@ -130,7 +129,8 @@ private:
     static std::vector<std::vector<std::uint32_t>> triangles_by_material(const lumel_mesh& mesh,
                                                                          const std::string& place)
     {
-        std::vector<std::vector<std::uint32_t>> triangles(mesh.material_count);
+        std::vector<std::vector<std::uint32_t>> triangles(
+            mesh.triangle_count > 0 ? mesh.material_count : 0);
         for (std::uint32_t t = 0; t < mesh.triangle_count; ++t) {
             const std::uint32_t material = mesh.triangle_materials ? mesh.triangle_materials[t] : 0;
             if (material >= mesh.material_count)
@@ -177,7 +177,7 @@ private:
                 refuse_content(name + "[" + std::to_string(i / N) + "]", "is not finite");
     }
 
-    /// Here, where vertices still have the mesh's own numbers.
+    /// Scene checks primitives, whose vertices have other numbers than those of the mesh.
     static void check_arrays(const lumel_mesh& mesh, const std::string& place)
     {
         require(mesh.positions, place + ".positions");

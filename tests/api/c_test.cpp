@@ -296,17 +296,20 @@ TEST(LumelC, TakesSkiesOfTheCie)
     EXPECT_EQ(lumel_add_daylight(scene.get(), &daylight), LUMEL_OK) << lumel_message();
 }
 
-/// A material that no triangle has, and a triangle without area.
+/// A material that no triangle has, a triangle without area, and a mesh without triangles.
 TEST(LumelC, LeavesOutWhatShowsNothing)
 {
     Cube cube;
+    const lumel_mesh empty{.material_count = 3};
+    const lumel_instance instances[2] = {{.mesh = &empty}, cube.instance};
     cube.of_triangle.assign(12, 1);
     std::vector<std::uint32_t> indices(cube.mesh.indices, cube.mesh.indices + 36);
     indices[4] = indices[3];
     cube.mesh.indices = indices.data();
-    const ScenePointer scene = scene_of(cube.arrays());
+    const ScenePointer scene = scene_of({.instance_count = 2, .instances = instances});
     const BakedPointer baked = baked_of(scene.get(), {.size = kSize, .shots = 12});
     ASSERT_EQ(baked->surface_count, 1u);
+    EXPECT_EQ(baked->surfaces[0].instance, 1u);
     EXPECT_EQ(baked->surfaces[0].primitive, 1u);
     EXPECT_EQ(baked->surfaces[0].triangle_count, 11u);
 }
