@@ -12,6 +12,7 @@
 #include "results/page/page.h"
 
 namespace lumel {
+
 int run(const BakeArguments& arguments)
 {
     if (arguments.page)

@@ -12,7 +12,7 @@ namespace lumel {
 /// where they are known.
 std::string progress_json(const BakeProgress& progress);
 
-/// Prints such a line at each new stage, and at most ten a second.
+/// Prints such a line when a stage begins, then at most ten a second.
 class ProgressLines {
 public:
     void show(const BakeProgress& progress);

@@ -168,8 +168,8 @@ void add_talk_options(Command& command, Talk& talk)
                 {choice(talk.progress, kProgressStyles,
                         {"--progress",
                          "",
-                         "Progress on stderr: a bar if it is a terminal (auto); a line of JSON for "
-                         "other programs, ten times a second (json); or none",
+                         "Progress on stderr: a bar if it is a terminal (auto); lines of JSON for "
+                         "other programs, at most ten a second in a stage (json); or none",
                          {},
                          "auto"})});
 }

@@ -162,13 +162,13 @@ void reduce(Setting& setting)
     setting.near = {};
 }
 
-/// What the user should know of the scene and of its bake.
+/// Messages of a bake; on_warning()'s function has had those of the scene.
 std::vector<std::string> notes_of(const LogCapture& log, const SceneImpl& scene)
 {
     return told(log.messages(), scene.scene.warnings);
 }
 
-/// device: null if there is none. Logs what the user should know.
+/// device: null if there is none. Logs messages for the user.
 Baked baked_scene(const gpu::Device* device, const SceneImpl& given, BakeOptions options,
                   const lumel::ProgressFunction& progress)
 {

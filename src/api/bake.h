@@ -13,9 +13,9 @@
 
 namespace lumel::v0 {
 
-/// What a bake leaves for later: the scene made ready, and its light.
+/// The prepared scene of a bake, with its light.
 struct BakedSolution {
-    /// Makes the scene ready. device: null if there is none.
+    /// Prepares the scene. device: null if there is none.
     BakedSolution(lumel::Scene scene, std::shared_ptr<const GltfDocument> file,
                   const gpu::Device* device, const BakeOptions& options, Stages& stages)
         : setting(std::move(scene), device, options, stages),

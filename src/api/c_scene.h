@@ -15,7 +15,7 @@ struct CContent {
     std::vector<std::vector<std::vector<std::uint32_t>>> vertices;
 };
 
-/// Copies and checks what SceneContent does not have. Throws Error{input}.
+/// Copies the arrays; checks pointers, sizes and indices. Throws Error{input}.
 CContent content_of(const lumel_content& from);
 
 }  // namespace lumel::v0

@@ -1,4 +1,4 @@
-// What a bake gives beside its map: light probes and lit glTF files.
+// Light probes and lit glTF files of a bake.
 
 #include <numbers>
 

@@ -1,7 +1,6 @@
 // Converts a host's arrays to a checked scene.
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -247,23 +246,6 @@ lumel::Sky sky_of(const Sky& from)
     return {.width = from.width, .height = from.height, .radiance = to_glm(from.luminance)};
 }
 
-/// Centres a scene that lies far from 0.
-void recentre(lumel::Scene& scene)
-{
-    constexpr double kBeyond = std::numeric_limits<double>::max();
-    Bounds whole{glm::dvec3(kBeyond), glm::dvec3(-kBeyond)};
-    for (const lumel::Instance& instance : scene.instances) {
-        if (scene.meshes[std::size_t(instance.mesh)].primitives.empty())
-            continue;
-        const Bounds box = placed_box(bounds_of(scene.meshes[std::size_t(instance.mesh)]),
-                                      glm::dmat4(instance.transform));
-        whole.low = glm::min(whole.low, box.low);
-        whole.high = glm::max(whole.high, box.high);
-    }
-    if (whole.low.x <= whole.high.x)
-        set_origin(scene, origin_for(whole));
-}
-
 }  // namespace
 
 lumel::Scene scene_of(const SceneContent& content)
@@ -288,7 +270,9 @@ lumel::Scene scene_of(const SceneContent& content)
     for (const Light& light : content.lights)
         scene.lights.push_back(light_of(light, place("lights", scene.lights.size())));
     scene.sky = sky_of(content.sky);
-    recentre(scene);
+    set_origin(scene, origin_for(scene, [](const lumel::Instance& instance) {
+                   return glm::dmat4(instance.transform);
+               }));
     if (scene.dropped_triangles > 0)
         scene.warnings.push_back(
             fmt::format("{} triangles of zero area dropped", scene.dropped_triangles));

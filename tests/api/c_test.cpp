@@ -1,4 +1,4 @@
-// The interface for C: what it makes of scenes and bakes is what lumel.h makes of them.
+// The interface for C gives the same scenes, maps and files as lumel.h.
 
 #include <cstring>
 #include <limits>

@@ -7,12 +7,17 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/cie171.h"
 #include "boxes.h"
 
 namespace lumel::v0 {
 namespace {
 
 using namespace test;
+using lumel::test::kSky12Side4;
+using lumel::test::kSky16Side4;
+using lumel::test::kSky5Side1;
+using lumel::test::RoofOpening;
 
 constexpr double kPoint = 0.02, kMean = 0.005;  ///< accuracy of texels and of means
 constexpr float kLumen = 10'000.0f;             ///< of an isotropic lamp
@@ -110,14 +115,6 @@ double light_at(const Baked& baked, std::size_t surface, double u, double v)
            down * ((1 - right) * texel(left, top + 1) + right * texel(left + 1, top + 1));
 }
 
-/// A sky through the roof: 100 E / E_outside at A to F up and down the wall, G to N along the
-/// floor.
-struct RoofOpening {
-    int sky;
-    float opening;  ///< side [m]
-    std::array<double, 14> expected;
-};
-
 class Case59 : public testing::TestWithParam<RoofOpening> {};
 
 TEST_P(Case59, TheSkyThroughTheRoof)
@@ -139,24 +136,10 @@ TEST_P(Case59, TheSkyThroughTheRoof)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Skies, Case59,
-    testing::Values(RoofOpening{5,
-                                1,
-                                {1.04, 2.39, 2.59, 2.20, 1.70, 1.27, 1.96, 2.52, 3.05, 3.37, 3.37,
-                                 3.05, 2.52, 1.96}},
-                    RoofOpening{12,
-                                4,
-                                {67.28, 54.43, 44.20, 36.07, 29.52, 24.20, 42.28, 43.88, 43.49,
-                                 40.91, 35.90, 29.23, 22.57, 16.80}},
-                    RoofOpening{16,
-                                4,
-                                {37.36, 32.14, 26.72, 21.75, 17.50, 14.03, 31.35, 36.74, 40.68,
-                                 42.74, 42.74, 40.68, 36.74, 31.35}}),
-    [](const testing::TestParamInfo<RoofOpening>& test) {
-        return "Type" + std::to_string(test.param.sky) + "Side" +
-               std::to_string(int(test.param.opening));
-    });
+INSTANTIATE_TEST_SUITE_P(Skies, Case59, testing::Values(kSky5Side1, kSky12Side4, kSky16Side4),
+                         [](const testing::TestParamInfo<RoofOpening>& test) {
+                             return name_of(test.param);
+                         });
 
 }  // namespace
 }  // namespace lumel::v0

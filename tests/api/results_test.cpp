@@ -1,4 +1,4 @@
-// What a bake in memory gives beside its map.
+// Probes, directional maps, lit files and messages of bakes in memory.
 
 #include <algorithm>
 #include <filesystem>

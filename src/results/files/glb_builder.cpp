@@ -179,16 +179,14 @@ void GlbBuilder::look_at_images(Pictures pictures)
         const JsonView view(document_.path, image, "/images/" + std::to_string(i));
         try {
             const Bytes file = buffer_view_bytes(document_, view.get("bufferView"));
-            is_webp_[i] = is_webp(file);
-            if (pictures == Pictures::as_they_are)
-                continue;
-            if (auto png = plain_picture(file, view.place())) {
+            auto png =
+                pictures == Pictures::plain ? plain_picture(file, view.place()) : std::nullopt;
+            is_webp_[i] = !png && is_webp(file);
+            if (png) {
                 image.erase("bufferView");
                 unpacked_images_[i] = std::move(*png);
-                is_webp_[i] = false;
             }
-        } catch (const Error&) {
-            continue;  // see embed_images()
+        } catch (const Error&) {  // see embed_images()
         }
     }
 }

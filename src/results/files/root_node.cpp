@@ -7,10 +7,10 @@ namespace lumel {
 
 void add_root(Json& gltf, Json node, const glm::dmat4& world)
 {
-    node["matrix"] = Json::array();
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            node["matrix"].push_back(world[column][row]);
+    if (world != glm::dmat4(1.0))
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row)
+                node["matrix"].push_back(world[column][row]);
     const std::size_t number = gltf["nodes"].size();
     gltf["nodes"].push_back(std::move(node));
     if (const auto scenes = gltf.find("scenes"); scenes != gltf.end() && !scenes->empty())

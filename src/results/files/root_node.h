@@ -7,7 +7,7 @@
 
 namespace lumel {
 
-/// Adds a root node to the default scene. world: its transform.
+/// Adds a root node to the default scene. world: its transform, left out if it is the identity.
 void add_root(Json& gltf, Json node, const glm::dmat4& world);
 
 }  // namespace lumel

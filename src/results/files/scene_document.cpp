@@ -4,9 +4,8 @@
 #include <numbers>
 #include <span>
 
-#include <glm/gtc/type_ptr.hpp>
-
 #include "base/images/image_files.h"
+#include "results/files/root_node.h"
 
 namespace lumel {
 namespace {
@@ -38,7 +37,7 @@ public:
             json_["materials"].push_back(material_of(material));
         add_meshes();
         for (const Instance& instance : scene_.instances)
-            add_node(node_of(instance));
+            add_node(node_of(instance), instance.transform);
         for (const PunctualLight& light : scene_.lights)
             add_light(light);
         add_extensions();
@@ -156,30 +155,20 @@ private:
         }
     }
 
-    /// A node in the file's world.
-    Json placed(const std::string& name, const glm::mat4& transform) const
+    /// transform: in the scene.
+    void add_node(Json node, const glm::mat4& transform)
     {
-        Json node = {{"name", valid(name)}};
         glm::dmat4 world(transform);
         world[3] += glm::dvec4(scene_.origin, 0.0);
-        if (world != glm::dmat4(1.0))
-            for (int i = 0; i < 16; ++i)
-                node["matrix"].push_back(glm::value_ptr(world)[i]);
-        return node;
+        add_root(json_, std::move(node), world);
     }
 
     Json node_of(const Instance& instance) const
     {
-        Json node = placed(instance.name, instance.transform);
+        Json node = {{"name", valid(instance.name)}};
         if (const int mesh = meshes_[std::size_t(instance.mesh)]; mesh >= 0)
             node["mesh"] = mesh;
         return node;
-    }
-
-    void add_node(Json node)
-    {
-        json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
-        json_["nodes"].push_back(std::move(node));
     }
 
     void add_light(const PunctualLight& from)
@@ -201,14 +190,14 @@ private:
             light["type"] = from.kind == PunctualLight::Kind::point ? "point" : "directional";
         }
         Json& lights = json_["extensions"]["KHR_lights_punctual"]["lights"];
-        Json node = placed(from.name, from.transform);
+        Json node = {{"name", valid(from.name)}};
         node["extensions"]["KHR_lights_punctual"] = {{"light", lights.size()}};
         if (from.radius > 0.0f)
             node["extras"]["radius"] = from.radius;
         if (from.angle > 0.0f)
             node["extras"]["angle"] = from.angle;
         lights.push_back(std::move(light));
-        add_node(std::move(node));
+        add_node(std::move(node), from.transform);
     }
 
     void add_extensions()

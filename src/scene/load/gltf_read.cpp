@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 #include <new>
 
 #include "base/core/error.h"
@@ -18,8 +17,6 @@
 namespace lumel {
 
 namespace {
-
-constexpr double kBeyond = std::numeric_limits<double>::max();
 
 /// Counts for warnings.
 struct Notes {
@@ -82,20 +79,13 @@ void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& 
 /// Centres a scene that lies far from 0, before its transforms become floats.
 void recentre(Scene& scene, std::vector<PlacedNode>& nodes)
 {
-    Bounds whole{glm::dvec3(kBeyond), glm::dvec3(-kBeyond)};
     const auto world_of = [&](const Instance& instance) -> const glm::dmat4& {
         const auto found = std::lower_bound(
             nodes.begin(), nodes.end(), std::size_t(instance.node),
             [](const PlacedNode& placed, std::size_t node) { return placed.node < node; });
         return found->world;
     };
-    for (const Instance& instance : scene.instances) {
-        const Bounds box =
-            placed_box(bounds_of(scene.meshes[std::size_t(instance.mesh)]), world_of(instance));
-        whole.low = glm::min(whole.low, box.low);
-        whole.high = glm::max(whole.high, box.high);
-    }
-    scene.origin = origin_for(whole);
+    scene.origin = origin_for(scene, world_of);
     if (scene.origin == glm::dvec3(0.0))
         return;
     for (PlacedNode& placed : nodes)

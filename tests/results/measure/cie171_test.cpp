@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../../support/cie171.h"
 #include "meter.h"
 #include "scene/sky/cie_sky.h"
 
@@ -70,13 +71,6 @@ void expect_light(const MeteredRoom& room, const std::array<double, 14>& expecte
             << char('A' + i);
 }
 
-/// A sky through an unglazed opening in the roof: 100 E / E_outside.
-struct RoofOpening {
-    int sky;
-    float opening;  ///< side [m]
-    std::array<double, 14> expected;
-};
-
 class Case59 : public testing::TestWithParam<RoofOpening> {};
 
 TEST_P(Case59, TheSkyThroughTheRoof)
@@ -89,44 +83,12 @@ TEST_P(Case59, TheSkyThroughTheRoof)
     expect_light(room, GetParam().expected, kRays);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Skies, Case59,
-    testing::Values(RoofOpening{1,
-                                1,
-                                {.46, 1.64, 2.34, 2.26, 1.88, 1.47, 2.34, 3.11, 3.84, 4.29, 4.29,
-                                 3.84, 3.11, 2.34}},
-                    RoofOpening{5,
-                                1,
-                                {1.04, 2.39, 2.59, 2.20, 1.70, 1.27, 1.96, 2.52, 3.05, 3.37, 3.37,
-                                 3.05, 2.52, 1.96}},
-                    RoofOpening{12,
-                                1,
-                                {1.74, 3.76, 4.55, 4.61, 4.24, 3.63, 5.72, 6.00, 5.11, 3.97, 2.90,
-                                 2.03, 1.40, .96}},
-                    RoofOpening{16,
-                                1,
-                                {.56, 1.78, 2.32, 2.20, 1.82, 1.43, 2.29, 3.07, 3.82, 4.29, 4.29,
-                                 3.82, 3.07, 2.29}},
-                    RoofOpening{1,
-                                4,
-                                {35.82, 31.54, 26.79, 22.08, 17.87, 14.36, 31.86, 37.28, 41.25,
-                                 43.32, 43.32, 41.25, 37.28, 31.86}},
-                    RoofOpening{5,
-                                4,
-                                {45.12, 35.90, 27.99, 21.64, 16.72, 12.97, 26.80, 30.94, 33.98,
-                                 35.57, 35.57, 33.98, 30.94, 26.80}},
-                    RoofOpening{12,
-                                4,
-                                {67.28, 54.43, 44.20, 36.07, 29.52, 24.20, 42.28, 43.88, 43.49,
-                                 40.91, 35.90, 29.23, 22.57, 16.80}},
-                    RoofOpening{16,
-                                4,
-                                {37.36, 32.14, 26.72, 21.75, 17.50, 14.03, 31.35, 36.74, 40.68,
-                                 42.74, 42.74, 40.68, 36.74, 31.35}}),
-    [](const testing::TestParamInfo<RoofOpening>& test) {
-        return "Type" + std::to_string(test.param.sky) + "Side" +
-               std::to_string(int(test.param.opening));
-    });
+INSTANTIATE_TEST_SUITE_P(Skies, Case59,
+                         testing::Values(kSky1Side1, kSky1Side4, kSky5Side1, kSky5Side4,
+                                         kSky12Side1, kSky12Side4, kSky16Side1, kSky16Side4),
+                         [](const testing::TestParamInfo<RoofOpening>& test) {
+                             return name_of(test.param);
+                         });
 
 /// Black but for an opening in the wall z = 4; a ground outside sends three tenths of the light
 /// that it gets from an open sky. Through the whole wall all points of the wall see its horizon, so
