@@ -1,0 +1,213 @@
+"""Types of the compiled module.
+
+All calls, and reading a Scene, block until they are done, use all cores, and run one at a time. They raise Error;
+ValueError and TypeError for arguments of the wrong shape, range or type; and whatever a progress function raises.
+bake() and LiveLinks.update() check for Ctrl-C, the others once they are done.
+"""
+
+import os
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, Literal, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .content import Instance, Light, Material, Mesh, Vector
+
+_Path = Union[str, os.PathLike[str]]
+_Angles = tuple[float, float]
+_Sides = Literal["automatic", "both", "brighter", "front"]
+_Factor = Union[float, np.floating[Any], Vector]
+_Floats = NDArray[np.float32]
+_Indices = NDArray[np.uint32]
+
+__version__: str
+
+class Error(RuntimeError):
+    """The message is one sentence: location, fault and remedy."""
+
+    kind: Literal["input", "device", "output", "stopped"]
+
+class LumelWarning(UserWarning):
+    """A message for the user; also in Scene.warnings, Baked.notes and LiveLinks.notes."""
+
+class Progress:
+    @property
+    def stage(self) -> str: ...
+    @property
+    def fraction(self) -> float:
+        """Of the stage, 0 to 1."""
+    @property
+    def shots(self) -> int: ...
+    @property
+    def error(self) -> float:
+        """Estimated relative error; below 0: unknown."""
+    @property
+    def seconds(self) -> float:
+        """Since the stage began."""
+
+class Device:
+    """A Vulkan device, for methods other than "links", rays on a GPU and directional maps."""
+
+    def __init__(self, pick: str = "") -> None:
+        """pick: index or part of a name, as `lumel devices` lists; empty: the best."""
+    @property
+    def name(self) -> str: ...
+
+class Scene:
+    """A checked scene. Its arrays are copied."""
+
+    def __init__(self, *, meshes: Iterable[Mesh], instances: Iterable[Instance], materials: Iterable[Material],
+                 lights: Iterable[Light] = (), textures: Iterable[NDArray[np.uint8]] = (),
+                 sky: Optional[ArrayLike] = None) -> None:
+        """textures: (height, width, 4) of dtype uint8, colours sRGB-coded. sky: (height, width, 3) luminance [cd/m²]
+        over all directions; row 0 is up, the middle of the image is +x, and +z is at three quarters of its width."""
+    @staticmethod
+    def load(path: _Path, *, materials: Literal["diffuse", "glossy"] = "diffuse") -> Scene:
+        """Reads a glTF 2.0 file. "glossy": for method "glossy"."""
+    def add_daylight(self, *, sun: Optional[_Angles] = None, sky_luminance: Optional[Vector] = None,
+                     sky_file: Optional[_Path] = None, cie: Optional[int] = None, cie_lux: Optional[float] = None,
+                     cie_sun: Optional[_Angles] = None, sky_scale: float = 1.0, rotation: float = 0.0) -> None:
+        """Replaces the sky, and adds the sun as a light. Suns: azimuth clockwise from north (-z), seen from above,
+        and elevation. cie: type 1 to 16 of a standard sky, with cie_lux (10,000 by default) on an open horizontal
+        plane."""
+    @property
+    def instances(self) -> list[str]:
+        """Names of the visible ones."""
+    @property
+    def transforms(self) -> _Floats:
+        """(n, 4, 4), mesh to world, for columns, of the instances; a new array."""
+    @property
+    def lights(self) -> list[str]:
+        """Names."""
+    @property
+    def warnings(self) -> list[str]: ...
+    def find_instance(self, name: str) -> int:
+        """Index of the first instance with this name."""
+
+class Surface:
+    """One primitive of one instance in the lightmap, or its back. Vertices are split at chart borders. Arrays are views
+    of the bake's memory, which they keep alive."""
+
+    @property
+    def instance(self) -> int: ...
+    @property
+    def primitive(self) -> int: ...
+    @property
+    def back(self) -> bool:
+        """True for the back of the preceding surface: the same triangles with reversed winding."""
+    @property
+    def texels_per_metre(self) -> float: ...
+    @property
+    def source_vertex(self) -> _Indices:
+        """(V,) the source primitive's vertex."""
+    @property
+    def lightmap(self) -> _Floats:
+        """(V, 2) coordinates in 0 to 1, (0, 0) at the top left."""
+    @property
+    def indices(self) -> _Indices:
+        """(3 T,) without triangles of zero area."""
+    @property
+    def page(self) -> NDArray[np.uint16]:
+        """(V,) index into the pages; empty if there is one page."""
+
+class Baked:
+    """A finished bake. Arrays are views of its memory, which they keep alive."""
+
+    @property
+    def map(self) -> _Floats:
+        """(height, width, 4) irradiance [lx], and above 0 where a surface is. write_scene() writes your changes."""
+    @property
+    def directional(self) -> list[_Floats]:
+        """4 or 9 maps of coefficients of the incoming radiance [cd/m²]."""
+    @property
+    def surfaces(self) -> list[Surface]: ...
+    @property
+    def pages(self) -> list[tuple[int, int, int]]:
+        """Left, top and side [texels] of each."""
+    @property
+    def texels_per_metre(self) -> float: ...
+    @property
+    def error(self) -> float:
+        """Estimated relative error; this and the next two: below 0 if unknown."""
+    @property
+    def eye_error(self) -> float: ...
+    @property
+    def visible_noise(self) -> float: ...
+    @property
+    def shots(self) -> int: ...
+    @property
+    def seconds(self) -> float: ...
+    @property
+    def interrupted(self) -> bool:
+        """Ended by progress."""
+    @property
+    def notes(self) -> list[str]: ...
+
+def bake(scene: Scene, *, device: Optional[Device] = None, progress: Optional[Callable[[Progress], Any]] = None,
+         texels_per_metre: Optional[float] = None, size: Optional[int] = None, max_size: Optional[int] = None,
+         gutter: Optional[int] = None, pages: Optional[int] = None, sides: Optional[_Sides] = None,
+         densities: Optional[Mapping[str, float]] = None, coarse_afar: Optional[bool] = None,
+         method: Optional[str] = None, options: Optional[Mapping[str, str]] = None,
+         parts: Optional[Literal["all", "direct", "indirect"]] = None,
+         directional: Optional[Literal["none", "sh1", "sh2"]] = None, seed: Optional[int] = None,
+         error: Optional[float] = None, dark_error: Optional[float] = None, eye_error: Optional[float] = None,
+         visible_noise: Optional[float] = None, seconds: Optional[float] = None, shots: Optional[int] = None,
+         max_memory: Optional[int] = None) -> Baked:
+    """Returns the map that `lumel bake` writes with the same settings, without a device that of `--rays host`.
+
+    progress: called often; returning False ends the bake with the best light so far, other values are ignored. Settings
+    are those of BakeSettings and AtlasSettings in lumel.h; None stands for the default. densities: texels per metre by
+    names of nodes, meshes or materials, with shell wildcards; the last match applies.
+    """
+
+def probes(baked: Baked, places: ArrayLike, *,
+           samples: int = 4096) -> tuple[_Floats, NDArray[np.float64], NDArray[np.bool_]]:
+    """Incoming light at points (n, 3) [m]: coefficients (n, 9, 3) in real spherical harmonics [cd/m²], their standard
+    error (n,), and True (n,) where a point is inside an object."""
+
+def write_scene(path: _Path, baked: Baked, *, lightmap: Literal["ktx2", "rgb9e5", "png", "none"] = "ktx2") -> None:
+    """Writes the scene with Baked.map to a .glb file, as scene.glb of `lumel bake`."""
+
+def write_baked_scene(path: _Path, baked: Baked, *, size: int = 2048) -> None:
+    """Writes a .glb file that any viewer shows lit, with textures of at most `size` texels a side."""
+
+class LiveLinksState:
+    @property
+    def residual(self) -> float: ...
+    @property
+    def dark_residual(self) -> float: ...
+    @property
+    def under_way(self) -> bool: ...
+    @property
+    def at_rest(self) -> bool: ...
+    @property
+    def milliseconds(self) -> float: ...
+
+class LiveLinks:
+    """Keeps a scene lit while instances and lamps move, lamps are dimmed and colours change. Runs on the CPU."""
+
+    def __init__(self, scene: Scene, *, movers: Optional[Iterable[int]] = None,
+                 rays: Optional[Literal[4, 16, 64, 256]] = None, filter: Optional[bool] = None,
+                 seed: Optional[int] = None, residual: Optional[float] = None,
+                 texels_per_metre: Optional[float] = None, size: Optional[int] = None, max_size: Optional[int] = None,
+                 gutter: Optional[int] = None, pages: Optional[int] = None, sides: Optional[_Sides] = None,
+                 densities: Optional[Mapping[str, float]] = None, coarse_afar: Optional[bool] = None) -> None:
+        """movers: movable instances. rays: stored for each lumel. Settings are those of LiveLinksSettings and
+        AtlasSettings in lumel.h; None stands for the default."""
+    def move(self, instance: int, transform: ArrayLike) -> None:
+        """(4, 4), mesh to world, for columns; a rigid motion. update() applies it."""
+    def move_lamp(self, name: str, *, position: Optional[Vector] = None,
+                  direction: Optional[Vector] = None) -> None: ...
+    def set_lamp(self, name: str, factor: _Factor) -> None:
+        """Scales lights, and emission of materials, of this name, relative to the scene."""
+    def set_sky(self, factor: _Factor) -> None: ...
+    def set_color(self, material: str, color: Vector) -> None: ...
+    def update(self, budget_ms: float = ...) -> LiveLinksState:
+        """Runs for about this time; by default until the light has converged."""
+    def map(self) -> _Floats:
+        """(height, width, 4), as Baked.map; a new array."""
+    @property
+    def surfaces(self) -> list[Surface]: ...
+    @property
+    def notes(self) -> list[str]: ...

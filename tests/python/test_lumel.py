@@ -1,0 +1,344 @@
+"""Tests of the Python package; LUMEL: the program, SCENES: the folder of scenes."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import types
+import unittest
+import unittest.mock
+import warnings
+from typing import Any, Optional
+
+import lumel
+import numpy as np
+
+SCENES = pathlib.Path(os.environ["SCENES"])
+CORNELL_BOX = SCENES / "cornell-box.gltf"
+
+# Cube of side 2 around the origin, seen from inside: corners by the bits of x, y, z, and two triangles a side.
+CORNERS = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])
+INSIDE = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+                   [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+
+
+def cube(material: lumel.Material, positions: Any = CORNERS, indices: Any = INSIDE,
+         transform: Optional[Any] = None) -> lumel.Scene:
+    return lumel.Scene(meshes=[lumel.Mesh([lumel.Primitive(positions, indices)])],
+                       instances=[lumel.Instance(transform=np.eye(4) if transform is None else transform)],
+                       materials=[material])
+
+
+def glowing(albedo: float) -> lumel.Material:
+    return lumel.Material("glowing", base_color=(albedo, albedo, albedo, 1), emitted=(1, 2, 3))
+
+
+def ground(*others: lumel.Instance, **content: Any) -> lumel.Scene:
+    """A black square of 2 × 2 m that faces up, with the other instances of it."""
+    square = lumel.Primitive([[-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]], [0, 1, 2, 0, 2, 3])
+    return lumel.Scene(meshes=[lumel.Mesh([square])], instances=[lumel.Instance(name="ground"), *others],
+                       materials=[lumel.Material("black", base_color=(0, 0, 0, 1))], **content)
+
+
+def above(height: float, x: float = 0.0) -> Any:
+    moved = np.eye(4)
+    moved[:3, 3] = (x, height, 0)
+    return moved
+
+
+def coarse(scene: lumel.Scene, **settings: Any) -> lumel.Baked:
+    given: dict[str, Any] = {"size": 32, "error": 0.05, **settings}
+    return lumel.bake(scene, **given)
+
+
+def in_the_middle(scene: lumel.Scene) -> float:
+    """Irradiance [lx] at the centre of ground()."""
+    return float(coarse(scene, size=16, sides="front", error=0.002).map[8, 8, 1])
+
+
+class Scenes(unittest.TestCase):
+    def test_a_closed_room_glows(self) -> None:
+        """A closed room of albedo ρ and emission E has the irradiance E / (1 - ρ)."""
+        baked = lumel.bake(cube(glowing(0.5)), size=32, error=0.001)
+        lit = baked.map[baked.map[..., 3] > 0][:, :3]
+        np.testing.assert_allclose(lit, np.broadcast_to(np.pi * np.array([1, 2, 3]) / 0.5, lit.shape), rtol=0.01)
+
+    def test_arrays_of_other_types_and_orders(self) -> None:
+        given = coarse(cube(glowing(0.5)))
+        for positions, indices in ((np.asfortranarray(CORNERS.astype(np.float64)), INSIDE.astype(np.int16)),
+                                   (CORNERS.tolist(), INSIDE.ravel().tolist()), (CORNERS[::-1][::-1], INSIDE)):
+            np.testing.assert_array_equal(coarse(cube(glowing(0.5), positions, indices)).map, given.map)
+
+    def test_transforms_are_for_columns(self) -> None:
+        moved = above(0, x=10)
+        scene = cube(glowing(0.5), transform=moved)
+        np.testing.assert_array_equal(scene.transforms, [moved])
+        coefficients, _, inside = lumel.probes(coarse(scene), [[10, 0, 0], [0, 0, 0]], samples=64)
+        self.assertEqual(coefficients.shape, (2, 9, 3))
+        self.assertFalse(inside[0])
+        self.assertGreater(coefficients[0, 0, 0], 1)
+        self.assertEqual(coefficients[1, 0, 0], 0)
+        with self.assertRaisesRegex(ValueError, r"instances\[0\]\.transform: the last row must be \(0, 0, 0, 1\)"):
+            cube(glowing(0.5), transform=moved.T)
+
+    def test_wrong_arguments(self) -> None:
+        material = glowing(0.5)
+        with self.assertRaisesRegex(ValueError, r"positions must have the shape \(n, 3\)"):
+            cube(material, CORNERS[:, :2])
+        with self.assertRaisesRegex(ValueError, r"primitives\[0\]\.positions: .*inhomogeneous"):
+            cube(material, [[0, 0, 0], [1, 1]])
+        with self.assertRaisesRegex(ValueError, r"primitives\[0\]\.positions: could not convert string"):
+            cube(material, [["a", "b", "c"]])
+        with self.assertRaisesRegex(TypeError, "indices must be an array of integers"):
+            cube(material, indices=INSIDE + 0.5)
+        for indices in (-INSIDE, [2**32]):
+            with self.assertRaisesRegex(ValueError, "indices must lie between 0 and 4294967295"):
+                cube(material, indices=indices)
+        wrong: Any = (1, 1)
+        with self.assertRaisesRegex(TypeError, r"materials\[0\]\.base_color must be 4 numbers"):
+            cube(lumel.Material(base_color=wrong))
+        wrong = "1"
+        with self.assertRaisesRegex(TypeError, r"materials\[0\]\.metallic must be a number, not str"):
+            cube(lumel.Material(metallic=wrong))
+        wrong = [np.zeros((2, 2, 4))]
+        with self.assertRaisesRegex(TypeError, r"textures\[0\] must be an array of the dtype uint8"):
+            ground(textures=wrong)
+        with self.assertRaisesRegex(lumel.Error, r"meshes\[0\]\.primitives\[0\]") as raised:
+            cube(material, indices=INSIDE + 1)
+        self.assertEqual(raised.exception.kind, "input")
+        with self.assertRaisesRegex(lumel.Error, "nosuch.glb"):
+            lumel.Scene.load("nosuch.glb")
+
+    def test_textures(self) -> None:
+        """A black texture leaves the emission E."""
+        black = np.zeros((2, 2, 4), np.uint8)
+        material = lumel.Material(base_color=(0.9, 0.9, 0.9, 1), base_color_texture=0, emitted=(1, 1, 1))
+        baked = coarse(lumel.Scene(meshes=[lumel.Mesh([lumel.Primitive(CORNERS, INSIDE, texcoords=CORNERS[:, :2])])],
+                                   instances=[lumel.Instance()], materials=[material], textures=[black]), error=0.01)
+        self.assertAlmostEqual(float(baked.map[baked.map[..., 3] > 0][:, 1].mean()), np.pi, delta=0.02)
+
+    def test_the_sky(self) -> None:
+        """The upper half of the image has the luminance L: the irradiance is π L."""
+        sky = np.zeros((16, 32, 3))
+        sky[:8] = 100
+        self.assertAlmostEqual(in_the_middle(ground(sky=sky)), 100 * np.pi, delta=5)
+
+    def test_lights(self) -> None:
+        """A lamp of I at the height d gives I / d²."""
+        lamp = lumel.Light(intensity=100, position=(0, 2, 0))
+        self.assertAlmostEqual(in_the_middle(ground(lights=[lamp])), 25, delta=0.5)
+
+    def test_daylight(self) -> None:
+        scene = ground()
+        with self.assertRaisesRegex(ValueError, "cie_lux and cie_sun need cie"):
+            scene.add_daylight(cie_lux=5000)
+        scene.add_daylight(cie=1, cie_lux=5000)
+        self.assertAlmostEqual(in_the_middle(scene), 5000, delta=50)
+
+    def test_warnings(self) -> None:
+        with self.assertWarnsRegex(lumel.LumelWarning, "glowing"):
+            cube(glowing(1.0))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with self.assertRaises(lumel.LumelWarning):
+                cube(glowing(1.0))
+
+
+class Bakes(unittest.TestCase):
+    def test_the_file_of_the_program(self) -> None:
+        """write_scene() gives the bytes of `lumel bake`."""
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([os.environ["LUMEL"], "bake", CORNELL_BOX, folder, "--size", "64", "--rays", "host",
+                            "--preview-width", "0", "--quiet"], check=True, stdout=subprocess.DEVNULL)
+            written = pathlib.Path(folder) / "by_python.glb"
+            lumel.write_scene(written, lumel.bake(lumel.Scene.load(CORNELL_BOX), size=64))
+            self.assertEqual(written.read_bytes(), (pathlib.Path(folder) / "scene.glb").read_bytes())
+            lumel.write_baked_scene(str(written), coarse(lumel.Scene.load(CORNELL_BOX)))
+            self.assertEqual(written.read_bytes()[:4], b"glTF")
+            self.assertNotEqual(written.read_bytes(), (pathlib.Path(folder) / "scene.glb").read_bytes())
+            with self.assertRaises(lumel.Error) as raised:
+                lumel.write_scene(pathlib.Path(folder) / "none" / "x.glb", coarse(lumel.Scene.load(CORNELL_BOX)))
+            self.assertEqual(raised.exception.kind, "output")
+
+    def test_arrays_are_views(self) -> None:
+        baked = coarse(cube(glowing(0.5)))
+        self.assertIs(baked.map.base, baked)
+        self.assertTrue(np.shares_memory(baked.map, baked.map))
+        surface = baked.surfaces[0]
+        self.assertEqual(surface.lightmap.shape, (len(surface.source_vertex), 2))
+        self.assertLess(surface.indices.max(), len(surface.source_vertex))
+        self.assertEqual(baked.pages, [(0, 0, 32)])
+        light, coordinates, sums = baked.map, surface.lightmap, (baked.map.sum(), surface.lightmap.sum())
+        del baked, surface
+        coarse(cube(glowing(0.1)))  # would take the memory
+        self.assertEqual((light.sum(), coordinates.sum()), sums)
+
+    def test_changes_of_the_map_are_written(self) -> None:
+        baked = coarse(cube(glowing(0.5)))
+        given = baked.map.copy()
+        with tempfile.TemporaryDirectory() as folder:
+            def written() -> bytes:
+                lumel.write_scene(pathlib.Path(folder) / "x.glb", baked)
+                return (pathlib.Path(folder) / "x.glb").read_bytes()
+
+            before = written()
+            baked.map[..., :3] *= 2
+            self.assertNotEqual(written(), before)
+            baked.map[:] = given
+            self.assertEqual(written(), before)
+
+    def test_the_last_density_applies(self) -> None:
+        for densities, wanted in (({"glowing": 10.0, "*": 5.0}, 5), ({"*": 5.0, "glowing": 10.0}, 10)):
+            baked = coarse(cube(glowing(0.5)), size=None, texels_per_metre=8,
+                           densities=types.MappingProxyType(densities))
+            self.assertAlmostEqual(baked.surfaces[0].texels_per_metre, wanted, delta=1)
+
+    def test_none_is_the_default(self) -> None:
+        names = ("densities", "directional", "gutter", "max_size", "method", "options", "parts", "sides", "seed")
+        given = coarse(cube(glowing(0.5)), **dict.fromkeys(names))
+        np.testing.assert_array_equal(given.map, coarse(cube(glowing(0.5))).map)
+
+    def test_wrong_settings(self) -> None:
+        scene = cube(glowing(0.5))
+        bake: Any = lumel.bake
+        with self.assertRaisesRegex(TypeError, r'bake\(\) has no setting "sise"'):
+            bake(scene, sise=32)
+        with self.assertRaisesRegex(TypeError, "size must be an integer, not str"):
+            bake(scene, size="32")
+        with self.assertRaisesRegex(ValueError, "seed must lie between 0 and 4294967295"):
+            bake(scene, seed=-1)
+        with self.assertRaisesRegex(TypeError, r"options\['patches'\] must be a string, not int"):
+            bake(scene, options={"patches": 512})
+        with self.assertRaisesRegex(TypeError, "densities must be a mapping, not int"):
+            bake(scene, densities=5)
+        with self.assertRaisesRegex(ValueError, 'sides must be one of "automatic", "both"'):
+            bake(scene, sides="all")
+        with self.assertRaisesRegex(lumel.Error, "^gutter: is 65"):
+            lumel.bake(scene, gutter=65)
+        with self.assertRaisesRegex(lumel.Error, "^error: nothing would end the bake"):
+            lumel.bake(scene, error=0)
+
+    def test_progress(self) -> None:
+        stages = []
+
+        def follow(now: lumel.Progress) -> int:
+            stages.append(now.stage)
+            return 0  # only False ends a bake
+
+        self.assertFalse(coarse(cube(glowing(0.5)), progress=follow).interrupted)
+        self.assertIn("solving", stages)
+        for no in (False, np.False_):
+            with self.assertRaises(lumel.Error) as stopped:
+                coarse(cube(glowing(0.5)), progress=lambda _: no)
+            self.assertEqual(stopped.exception.kind, "stopped")
+        baked = lumel.bake(lumel.Scene.load(CORNELL_BOX), size=64, error=0, progress=lambda now: now.shots == 0)
+        self.assertTrue(baked.interrupted)
+        self.assertGreater(baked.map[..., 1].max(), 0)
+
+        def nested(_: lumel.Progress) -> None:
+            cube(glowing(0.5))
+
+        with self.assertRaisesRegex(RuntimeError, "a progress function must not call lumel"):
+            lumel.bake(cube(glowing(0.5)), size=32, progress=nested)
+
+    def test_errors_of_progress(self) -> None:
+        """They are raised unchanged, even if filters turn warnings into errors."""
+        def fail(now: lumel.Progress) -> None:
+            if now.shots > 0:
+                raise ZeroDivisionError
+
+        with warnings.catch_warnings(), unittest.mock.patch("sys.unraisablehook") as printed:
+            warnings.simplefilter("error")
+            with self.assertRaises(ZeroDivisionError):
+                coarse(lumel.Scene.load(CORNELL_BOX), size=None, max_size=32, texels_per_metre=1000, progress=fail)
+        self.assertRegex(str(printed.call_args.args[0].exc_value), "density lowered")
+
+    def test_interrupt(self) -> None:
+        """Ctrl-C ends a bake that has no other end."""
+        timers: list[threading.Timer] = []
+
+        def interrupt(now: lumel.Progress) -> None:
+            if now.stage == "solving" and not timers:
+                timers.append(threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)))
+                timers[0].start()
+
+        with self.assertRaises(KeyboardInterrupt):
+            lumel.bake(lumel.Scene.load(CORNELL_BOX), size=256, error=0, progress=interrupt)
+        self.assertEqual(len(timers), 1)
+
+    def test_threads_take_turns(self) -> None:
+        maps = []
+        threads = [threading.Thread(target=lambda: maps.append(coarse(cube(glowing(0.5))).map)) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for one in maps:
+            np.testing.assert_array_equal(one, maps[0])
+        self.assertEqual(len(maps), 4)
+
+    def test_python_goes_on(self) -> None:
+        ticks, during = 0, []
+
+        def bake() -> None:
+            before = ticks
+            coarse(lumel.Scene.load(CORNELL_BOX), size=128, error=0.01)
+            during.append(ticks - before)
+
+        thread = threading.Thread(target=bake)
+        thread.start()
+        while thread.is_alive():
+            ticks += 1
+            time.sleep(0.001)
+        self.assertGreater(during[0], 10)
+
+
+class Live(unittest.TestCase):
+    def test_a_dimmed_lamp(self) -> None:
+        live = lumel.LiveLinks(cube(glowing(0.5)), size=32, residual=0.0002)
+        self.assertTrue(live.update().at_rest)
+        before = live.map()
+        halves: list[Any] = [0.5, np.float32(0.5), np.array(0.5)]
+        for half in halves:
+            live.set_lamp("glowing", half)
+        live.update()
+        np.testing.assert_allclose(live.map()[..., :3], before[..., :3] / 2, rtol=0.01)
+        live.set_lamp("glowing", (1, 0, 0))
+        live.update()
+        self.assertLess(live.map()[..., 1].max(), 0.001 * before[..., 1].max())  # by the residual
+        with self.assertRaisesRegex(lumel.Error, "nosuch"):
+            live.set_lamp("nosuch", 1.0)
+        with self.assertRaisesRegex(TypeError, r'LiveLinks\(\) has no setting "error"'):
+            make: Any = lumel.LiveLinks
+            make(cube(glowing(0.5)), error=0.1)
+        with self.assertRaisesRegex(ValueError, r"movers\[0\] must lie between 0 and 4294967295"):
+            lumel.LiveLinks(cube(glowing(0.5)), movers=[-1])
+
+    def lit(self, live: lumel.LiveLinks) -> float:
+        """Irradiance [lx] at the centre of ground()."""
+        self.assertTrue(live.update().at_rest)
+        light = live.map()
+        x, y = (live.surfaces[0].lightmap.mean(axis=0) * light.shape[1::-1]).astype(int)
+        return float(light[y, x, 1])
+
+    def test_an_object_moves(self) -> None:
+        scene = ground(lumel.Instance(name="lid", transform=above(0.5)),
+                       lights=[lumel.Light("directional", intensity=1000)])
+        live = lumel.LiveLinks(scene, size=64, sides="front", movers=[scene.find_instance("lid")])
+        self.assertAlmostEqual(self.lit(live), 0, delta=1)
+        live.move(1, above(0.5, x=5))
+        self.assertAlmostEqual(self.lit(live), 1000, delta=10)
+
+    def test_a_lamp_moves(self) -> None:
+        live = lumel.LiveLinks(ground(lights=[lumel.Light(name="lamp", intensity=100, position=(0, 2, 0))]), size=32,
+                               sides="front")
+        self.assertAlmostEqual(self.lit(live), 25, delta=0.5)
+        live.move_lamp("lamp", position=np.array([0, 1, 0]))
+        self.assertAlmostEqual(self.lit(live), 100, delta=2)
+
+
+if __name__ == "__main__":
+    unittest.main()
