@@ -56,6 +56,8 @@ void add_other_modes(CLI::App& app, Settings& settings)
     app.add_option("--moves", settings.moves,
                    "times what rays and close pairs take to follow this thing instead")
         ->type_name("THING");
+    app.add_flag("--casters", settings.casters,
+                 "times rays that leave lumels instead: by the host and by the device");
     app.add_option("--seams", settings.seams,
                    "writes a picture of the map's seams before and after they are matched instead")
         ->type_name("FILE.png");
@@ -151,6 +153,8 @@ int main(int argc, char** argv)
             time_following(settings);
         else if (!settings.moves.empty())
             time_moves(settings);
+        else if (settings.casters)
+            time_casters(settings);
         else if (!settings.seams.empty())
             show_seams(settings);
         else if (!settings.growth.empty())

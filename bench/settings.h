@@ -46,6 +46,7 @@ struct Settings {
     std::vector<std::string> edits;   ///< to time instead, of a scene that is kept lit: dim:lamp
     std::vector<std::string> follow;  ///< changes whose light is followed instead
     std::string moves;                ///< instead: a thing of which moves are timed
+    bool casters = false;             ///< instead: rays per second of each caster
     std::string seams;                ///< instead: PNG of seams before and after
     std::vector<float> from;          ///< eye and what it looks at [m]; empty: the preview's view
     std::uint32_t edit_rays = 64;     ///< of a lumel of such a scene

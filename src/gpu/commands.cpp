@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <thread>
 
+#include "base/core/usage.h"
 #include "gpu/names.h"
 #include "gpu/triangle_tree.h"
 
@@ -399,6 +401,16 @@ void Commands::wait()
     for (std::size_t i = 0; i < stages_.size(); ++i)
         times_[stages_[i]] += device_->milliseconds(stamps[i], stamps[i + 1]);
     last_milliseconds_ = device_->milliseconds(stamps.front(), stamps.back());
+}
+
+void Commands::wait_awake()
+{
+    constexpr double kMoments = 3e-4;  // [s], several times what waking a thread takes
+    const double end = wall_seconds() + kMoments;
+    while (submitted_ && vkGetFenceStatus(device_->handle(), fence_) == VK_NOT_READY &&
+           wall_seconds() < end)
+        std::this_thread::yield();
+    wait();
 }
 
 void Commands::run()

@@ -116,6 +116,8 @@ public:
     void submit();
     /// Waits for the last submit, if any, and collects its timings.
     void wait();
+    /// wait() without sleeping for the first moments: returns sooner after short work.
+    void wait_awake();
     /// submit() and wait().
     void run();
 

@@ -202,6 +202,8 @@ std::vector<Row> rows()
          Row::Needs::nothing, kSeeds},
         {"bake_by_queries", "bake: links, rays by queries of the device", Room::given, links,
          baked(Rays::query), Row::Needs::ray_queries, kSeeds},
+        {"bake_by_tree", "bake: links, rays by a tree on the device", Room::given, links,
+         baked(Rays::tree), Row::Needs::nothing, kSeeds},
         {"bake_by_drawings", "bake: links, rays drawn", Room::given, links, baked(Rays::raster),
          Row::Needs::nothing, kSeeds},
         {"bake_by_kept_links", "bake: links kept", Room::given, kept, baked(kept_links()),

@@ -23,11 +23,9 @@ namespace {
 
 Json json_of(const GraphicsMemory& bytes)
 {
-    return {{"staging", bytes.staging},
-            {"world", bytes.world},
-            {"direct_light", bytes.direct_light},
-            {"solver", bytes.solver},
-            {"directional", bytes.directional}};
+    return {{"staging", bytes.staging}, {"world", bytes.world},
+            {"rays", bytes.rays},       {"direct_light", bytes.direct_light},
+            {"solver", bytes.solver},   {"directional", bytes.directional}};
 }
 
 Json json_of(const HostMemory& bytes)
@@ -168,10 +166,11 @@ Json facts(const SampledScene& sampled, const BakeOptions& options)
     json["back_lumels"] = back;
     json["buried_lumels"] = sampled.open().buried;
     json["occluding_triangles"] = occluders.inner_indices().size() / 3;
-    const GraphicsMemory memory = graphics_memory(prepared, options);
+    const std::optional<MemoryLimits> limits = usual_limits(options);
+    const GraphicsMemory memory =
+        graphics_memory(prepared, options, limits ? limits->type : std::string());
     json["graphics_memory_bytes"] = memory.most();
     json["graphics_memory_parts"] = json_of(memory);
-    const std::optional<MemoryLimits> limits = usual_limits(options);
     const bool shared = limits && limits->shared;
     const HostMemory host = host_memory(prepared, options, shared);
     json["host_memory_bytes"] = host.most() + (shared ? memory.most() : 0);

@@ -12,6 +12,7 @@
 #include "jobs/solve/setting.h"
 #include "jobs/solve/sources.h"
 #include "jobs/solve/stages.h"
+#include "links/trace/link_casters.h"
 #include "methods/matrix/relight_solver.h"
 #include "methods/methods.h"
 #include "raster/world/world.h"
@@ -57,11 +58,13 @@ void refuse(const std::string& shortage)
 
 std::uint64_t GraphicsMemory::most() const
 {
-    return staging + world + std::max(direct_light, solver + directional);
+    return staging + world + rays + std::max(direct_light, solver + directional);
 }
 
-GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& options)
+GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& options,
+                               const std::string& device_type)
 {
+    const auto* links = std::get_if<LinksOptions>(&options.solver.method);
     const float diagonal = glm::length(prepared.rays.high() - prepared.rays.low());
     const SolveSize size{
         &prepared.lumels,
@@ -69,6 +72,7 @@ GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& op
     return {
         .staging = needs_world(options) ? gpu::Staging::device_bytes() : 0,
         .world = needs_world(options) ? World::device_bytes(prepared.lumels, prepared.atlas) : 0,
+        .rays = links ? caster_bytes(device_type, prepared.rays, links->rays) : 0,
         .direct_light = method_of(options.solver.method).finds_lights
                             ? 0
                             : direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
@@ -87,6 +91,7 @@ MemoryLimits memory_limits(std::uint64_t max_memory, const gpu::DeviceInfo& devi
                       : shared ? available
                                : device.memory_bytes,
             .host = given ? max_memory : available,
+            .type = device.type,
             .shared = shared,
             .given = given,
             .name = device.name};
@@ -133,7 +138,7 @@ void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLi
 void check_memory(const SolveScene& prepared, const BakeOptions& options,
                   const MemoryLimits& limits)
 {
-    refuse(shortage(graphics_memory(prepared, options),
+    refuse(shortage(graphics_memory(prepared, options, limits.type),
                     host_memory(prepared, options, limits.shared), prepared.atlas.pages.side,
                     limits));
 }

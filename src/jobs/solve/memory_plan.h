@@ -13,15 +13,18 @@ namespace lumel {
 
 /// GPU memory by use [bytes]. Direct light is freed before the solver is made.
 struct GraphicsMemory {
-    std::uint64_t staging = 0, world = 0, direct_light = 0, solver = 0, directional = 0;
+    std::uint64_t staging = 0, world = 0, rays = 0, direct_light = 0, solver = 0, directional = 0;
 
     std::uint64_t most() const;
 };
-GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& options);
+/// device_type: as gpu::DeviceInfo has it; empty: there is none.
+GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& options,
+                               const std::string& device_type);
 
 /// Memory limits of a bake [bytes], 0: unknown.
 struct MemoryLimits {
     std::uint64_t device = 0, host = 0;
+    std::string type;     ///< of the device, as gpu::DeviceInfo has it
     bool shared = false;  ///< the device is the CPU: its memory is host memory
     bool given = false;   ///< by BakeOptions::max_memory; false: available memory
     std::string name;     ///< name of the device

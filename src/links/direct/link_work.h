@@ -32,14 +32,17 @@ struct LinkWork {
           cells(world),
           starts(world, &cells, rule == SampleRule::centre),
           sources(of.scene, of.surfaces, of.extent(), lights),
-          order(order_of(world))
+          order(order_of(world)),
+          host_(cast_on_host(of.rays))
     {
     }
     LinkWork(const LinkWork&) = delete;
     LinkWork& operator=(const LinkWork&) = delete;
 
     const std::vector<Lumel>& lumels() const { return scene.lumels.lumels; }
-    const RayCaster& caster() const { return *casters.rays; }
+    const RayCaster& caster() const { return *casters.rays; }  ///< of rays in large numbers
+    /// Of the few that go on: a device would take longer to answer than they take here.
+    const RayCaster& caster_of_few() const { return *host_; }
     bool is_buried(std::size_t lumel) const { return (lumels()[lumel].flags & kLumelBuried) != 0; }
 
     const SolveScene& scene;
@@ -49,6 +52,9 @@ struct LinkWork {
     const RayOrigins starts;
     LightSources sources;                    ///< LightSources::find() after changes of light
     const std::vector<std::uint32_t> order;  ///< [N]
+
+private:
+    const std::unique_ptr<RayCaster> host_;
 };
 
 }  // namespace lumel

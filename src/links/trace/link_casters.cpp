@@ -2,7 +2,7 @@
 
 #include "base/core/error.h"
 #include "base/core/log.h"
-#include "rays/device/query_caster.h"
+#include "rays/device/device_caster.h"
 
 namespace lumel {
 namespace {
@@ -19,24 +19,24 @@ auto unless_refused(const Make& make) -> decltype(make())
     }
 }
 
-std::unique_ptr<BundleCaster> bundles_for(const gpu::Device& device, const RayScene& rays,
-                                          Rays wanted)
+/// Than the host is at casting rays.
+bool is_faster(const std::string& device_type)
 {
-    const auto make = [&] { return std::make_unique<BundleCaster>(device, rays); };
-    if (wanted == Rays::raster)
-        return make();
-    const bool draws = !device.can_query_rays() && device.info().type != "cpu";
-    return wanted == Rays::automatic && draws ? unless_refused(make) : nullptr;
+    return !device_type.empty() && device_type != "cpu";
 }
 
 std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene& rays, Rays wanted)
 {
-    const auto make = [&] { return cast_by_queries(device, rays); };
     if (wanted == Rays::query)
-        return make();
-    if (wanted == Rays::automatic && device.can_query_rays() && device.info().type != "cpu")
-        if (auto queries = unless_refused(make))
-            return queries;
+        return cast_by_queries(device, rays);
+    if (wanted == Rays::tree)
+        return cast_by_tree(device, rays);
+    const auto make = [&] {
+        return device.can_query_rays() ? cast_by_queries(device, rays) : cast_by_tree(device, rays);
+    };
+    if (wanted == Rays::automatic && is_faster(device.info().type))
+        if (auto on_device = unless_refused(make))
+            return on_device;
     return cast_on_host(rays);
 }
 
@@ -45,13 +45,21 @@ std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene&
 LinkWork::Casters casters_for(const gpu::Device* device, const RayScene& rays, Rays wanted)
 {
     if (!device) {
-        if (wanted == Rays::query || wanted == Rays::raster)
+        if (wanted != Rays::automatic && wanted != Rays::host)
             throw Error(ErrorKind::device, "--rays",
                         "needs a device for rays that are not \"host\"");
         return {.rays = cast_on_host(rays)};
     }
     return {.rays = caster_for(*device, rays, wanted),
-            .bundles = bundles_for(*device, rays, wanted)};
+            .bundles =
+                wanted == Rays::raster ? std::make_unique<BundleCaster>(*device, rays) : nullptr};
+}
+
+std::uint64_t caster_bytes(const std::string& device, const RayScene& rays, Rays wanted)
+{
+    const bool casts = wanted == Rays::query || wanted == Rays::tree ||
+                       (wanted == Rays::automatic && is_faster(device));
+    return casts ? device_rays_bytes(rays) : 0;
 }
 
 }  // namespace lumel

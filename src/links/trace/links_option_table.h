@@ -10,6 +10,7 @@ inline constexpr OptionWord kLinksSwitch[] = {{"on", true}, {"off", false}};
 inline constexpr OptionWord kRayCasters[] = {{"auto", Rays::automatic},
                                              {"host", Rays::host},
                                              {"query", Rays::query},
+                                             {"tree", Rays::tree},
                                              {"raster", Rays::raster}};
 
 inline constexpr OptionInfo kLinksOptions[] = {
@@ -27,8 +28,9 @@ inline constexpr OptionInfo kLinksOptions[] = {
      .member = member<&LinksOptions::guide>},
     {.name = "rays",
      .help = "Ray tracing by the CPU (host), by ray queries of the GPU (query, VK_KHR_ray_query), "
-             "or by rasterisation on the GPU for rays that leave lumels (raster); auto: host if "
-             "the Vulkan device is a CPU, else query if the GPU supports it, else raster",
+             "by compute shaders of the GPU that walk a BVH (tree), or by rasterisation on the GPU "
+             "for rays that leave lumels (raster); auto: host if the Vulkan device is a CPU, else "
+             "query if the GPU supports it, else tree",
      .words = kRayCasters,
      .member = member<&LinksOptions::rays>},
 };

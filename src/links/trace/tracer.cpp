@@ -272,7 +272,8 @@ void LinkTracer::follow(RayBatch& wave) const
         const std::size_t count = wave.rays.size();
         wave.hits.resize(std::max(wave.hits.size(), count));
         if (reflections > 0 || !wave.is_cast)
-            work_.caster().closest(wave.rays, std::span(wave.hits).first(count));
+            (reflections > 0 ? work_.caster_of_few() : work_.caster())
+                .closest(wave.rays, std::span(wave.hits).first(count));
         wave.arrivals.clear();
         find_landings(wave);
         if (reflections == 0)
@@ -428,7 +429,7 @@ void LinkTracer::find_seen_cells(RayBatch& wave, int reflections) const
             return true;
         });
         wave.transmittance.resize(wave.to_cells.size());
-        work_.caster().transmittance(wave.to_cells, wave.transmittance);
+        work_.caster_of_few().transmittance(wave.to_cells, wave.transmittance);
         auto passed = wave.transmittance.begin();
         std::erase_if(open, [&](std::uint32_t a) {
             const bool sees = *passed++ != glm::vec3(0.0f);
@@ -492,7 +493,7 @@ void LinkTracer::end_or_reflect(RayBatch& wave, int reflections) const
         if (arrival.looks_around)
             wave.looking.push_back(arrival.path);
     }
-    wave.looks.cast(work_.caster());
+    wave.looks.cast(work_.caster_of_few());
     for (std::uint32_t n = 0; n < wave.looking.size(); ++n) {
         Path& path = wave.paths[wave.looking[n]];
         path.light += path.weight * direct_.light_of(wave.looks, n * direct_.looks_around());

@@ -109,6 +109,8 @@ void send_lobes(uint k, Sender y, vec3 scale, uint count, float lobes, uint rand
     uint l = 0u;
     for (uint earlier = 0u; earlier < p.before; ++earlier) {
         const float mine = lobe_power(y, earlier);
+        if (mine < kLeastDivisor)
+            continue;
         const vec3 light = light_on_lobes(y.lumel, earlier);
         const vec3 toward = normalize(before[earlier].position - y.position);
         below += mine;
@@ -143,7 +145,7 @@ void main()
     GlossyShot shot =
         GlossyShot(diffuse_power(y.lumel) * scale / kPi, lumels[y.lumel].position,
                    max(lumels[y.lumel].size, sqrt(y.area)), 0u, g.shininess, y.area / kPi, y.lumel);
-    if (lobes > 0.0)
+    if (lobes >= kLeastDivisor)
         shot.lobes = g.shininess < kNarrowLobe ? 1u : min(p.before, kMaxLobes);
     shots[k] = shot;
     send_lobes(k, y, scale, shot.lobes, lobes, random);

@@ -32,7 +32,7 @@ public:
     /// Recommended number of rays per batch.
     virtual std::size_t batch() const = 0;
 
-    /// "host" or "query", for reports.
+    /// "host", "query" or "tree", for reports.
     virtual const char* name() const = 0;
 };
 

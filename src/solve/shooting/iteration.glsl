@@ -3,6 +3,7 @@
 
 // Running averages and the energy balance, shared by the kernels that read them. Declares `totals`.
 
+#include "base/core/division.shared.h"
 #include "solve/shooting/iteration.balance.glsl"
 #include "solve/shooting/iteration.shared.h"
 
@@ -34,7 +35,7 @@ vec3 level(Averages averages, uint h)
     vec3 s = vec3(1.0);
     for (int c = 0; c < 3; ++c) {
         const float power = totals[0].column[kSourceColumn][c];
-        if (power <= 0.0 || !has_indirect(averages, h))
+        if (power < kLeastDivisor || !has_indirect(averages, h))
             continue;
         const float returned = (n * totals[0].column[kPhaseColumn + h][c] / power +
                                 w * totals[0].column[kEarlierColumn + h][c]) / (n + w) +
@@ -58,7 +59,7 @@ vec3 far_pattern(Averages averages, uint h, vec3 phase_sum, vec3 earlier)
     const vec3 power = totals[0].column[kSourceColumn].rgb;
     vec3 pattern = w * earlier;
     for (int c = 0; c < 3; ++c)
-        pattern[c] += power[c] > 0.0 ? phase_sum[c] / power[c] : 0.0;
+        pattern[c] += power[c] >= kLeastDivisor ? phase_sum[c] / power[c] : 0.0;
     return pattern / (n + w);
 }
 

@@ -5,12 +5,20 @@
 // per node instead of 4. Lumels are in Morton order within charts, so a stratified u spreads
 // shooters over the surfaces.
 
+#include "base/core/division.shared.h"
 #include "solve/shooting/power_pyramid.shared.h"
 
 struct Drawn {
     uint lumel;
     float probability;  // p_j; 0: the total power is 0
 };
+
+// weight / total, 0 if it or the total is too small to be divided by.
+float share_of(float weight, float total)
+{
+    const float share = total >= kLeastDivisor ? weight / total : 0.0;
+    return share >= kLeastDivisor ? share : 0.0;
+}
 
 // drawn ← the lumel at u, 0…1, in the cumulative `weights` of a PyramidLayout.
 #define DRAW_FROM(weights, pyramid, u, drawn)                                                      \
@@ -29,7 +37,7 @@ struct Drawn {
             }                                                                                      \
             node = child;                                                                          \
         }                                                                                          \
-        drawn = Drawn(node, total > 0.0 ? weights[pyramid.first[0] + node] / total : 0.0);         \
+        drawn = Drawn(node, share_of(weights[pyramid.first[0] + node], total));                    \
     }
 
 #endif

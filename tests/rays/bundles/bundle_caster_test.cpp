@@ -6,7 +6,7 @@
 
 #include "../../jobs/solved.h"
 #include "../../support/compare_hits.h"
-#include "../query/rooms.h"
+#include "../device/rooms.h"
 
 namespace lumel {
 namespace {

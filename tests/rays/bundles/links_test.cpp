@@ -1,6 +1,6 @@
 // Links whose rays are cast by drawing, against those of the host.
 
-#include "../query/compared_links.h"
+#include "../device/compared_links.h"
 
 namespace lumel {
 namespace {

@@ -1,6 +1,6 @@
 // Rays cast by a device against the same rays cast by the host.
 
-#include "rays/device/query_caster.h"
+#include "rays/device/device_caster.h"
 
 #include <numeric>
 #include <random>
@@ -12,7 +12,16 @@
 namespace lumel {
 namespace {
 
-using QueryCaster = support::OnDeviceWithRayQueries;
+class DeviceCaster : public support::OnDevice,
+                     public testing::WithParamInterface<support::DeviceRays> {
+protected:
+    void SetUp() override { need(GetParam()); }
+
+    void expect_agreement(const Scene& scene) const;
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, DeviceCaster, testing::ValuesIn(support::kDeviceRays),
+                         support::name_of_rays);
 
 constexpr std::size_t kRays = 20'000;
 /// Rays that run into an edge of two triangles may meet either.
@@ -35,24 +44,24 @@ std::vector<RaySpan> random_rays(const RayScene& rays)
     return result;
 }
 
-void expect_agreement(const gpu::Device& device, const Scene& scene)
+void DeviceCaster::expect_agreement(const Scene& scene) const
 {
     const RayScene rays(scene);
-    const auto host = cast_on_host(rays), query = cast_by_queries(device, rays);
+    const auto host = cast_on_host(rays), on_device = GetParam().cast(device, rays);
     std::vector<RaySpan> between = random_rays(rays), out = between;
     for (RaySpan& ray : out)
         ray.far = std::numeric_limits<float>::max();
-    std::vector<RayHit> by_host(kRays), by_query(kRays);
+    std::vector<RayHit> by_host(kRays), by_device(kRays);
     host->closest(out, by_host);
-    query->closest(out, by_query);
-    std::vector<glm::vec3> transmittance_host(kRays), transmittance_query(kRays);
+    on_device->closest(out, by_device);
+    std::vector<glm::vec3> transmittance_host(kRays), transmittance_device(kRays);
     host->transmittance(between, transmittance_host);
-    query->transmittance(between, transmittance_query);
+    on_device->transmittance(between, transmittance_device);
     std::size_t other_hits = 0, other_transmittance = 0, clear = 0;
     for (std::size_t i = 0; i < kRays; ++i) {
-        other_hits += !support::same(by_host[i], by_query[i]);
-        other_transmittance +=
-            !(glm::distance(transmittance_host[i], transmittance_query[i]) < support::kHitRounding);
+        other_hits += !support::same(by_host[i], by_device[i]);
+        other_transmittance += !(glm::distance(transmittance_host[i], transmittance_device[i]) <
+                                 support::kHitRounding);
         clear += transmittance_host[i] != glm::vec3(0.0f);
     }
     EXPECT_LE(double(other_hits), kOnEdges * kRays);
@@ -61,49 +70,49 @@ void expect_agreement(const gpu::Device& device, const Scene& scene)
     EXPECT_LT(clear, kRays);
 }
 
-TEST_F(QueryCaster, MeetsInTheCornellBoxWhatTheHostMeets)
+TEST_P(DeviceCaster, MeetsInTheCornellBoxWhatTheHostMeets)
 {
     const SolveScene world(support::scene_path("cornell-box"), {.size = 16});
-    expect_agreement(device, world.scene);
+    expect_agreement(world.scene);
 }
 
-TEST_F(QueryCaster, MeetsInTwoRoomsWhatTheHostMeets)
+TEST_P(DeviceCaster, MeetsInTwoRoomsWhatTheHostMeets)
 {
     const SolveScene world(support::scene_path("two-rooms"), {.size = 16});
-    expect_agreement(device, world.scene);
+    expect_agreement(world.scene);
 }
 
-TEST_F(QueryCaster, LetsPassWhatTheHostLetsPass)
+TEST_P(DeviceCaster, LetsPassWhatTheHostLetsPass)
 {
-    expect_agreement(device, support::room_with_curtains());
+    expect_agreement(support::room_with_curtains());
 }
 
-TEST_F(QueryCaster, MeetsNothingWhereThereIsNothing)
+TEST_P(DeviceCaster, MeetsNothingWhereThereIsNothing)
 {
     const Scene scene;
     const RayScene rays(scene);
-    const auto query = cast_by_queries(device, rays);
+    const auto caster = GetParam().cast(device, rays);
     const RaySpan ray = ray_out({0, 0, 0}, {0, 0, 1}, 0);
     RayHit hit;
     glm::vec3 transmittance(0.0f);
-    query->closest({&ray, 1}, {&hit, 1});
-    query->transmittance({&ray, 1}, {&transmittance, 1});
+    caster->closest({&ray, 1}, {&hit, 1});
+    caster->transmittance({&ray, 1}, {&transmittance, 1});
     EXPECT_EQ(hit.distance, RayCaster::kNothing);
     EXPECT_EQ(transmittance, glm::vec3(1.0f));
 }
 
-TEST_F(QueryCaster, CastsMoreRaysThanFitIntoItsArrays)
+TEST_P(DeviceCaster, CastsMoreRaysThanFitIntoItsArrays)
 {
     Scene scene;
     support::add_quad(scene, {});
     const RayScene rays(scene);
-    const auto query = cast_by_queries(device, rays);
-    const std::size_t count = 10 * query->batch() + 1;
+    const auto caster = GetParam().cast(device, rays);
+    const std::size_t count = 10 * caster->batch() + 1;
     std::vector<RaySpan> many(count);
     for (std::size_t i = 0; i < count; ++i)
         many[i] = ray_out({i % 2 == 0 ? 0.5f : 1.5f, 0.25f, 1.0f}, {0, 0, -1}, 0);
     std::vector<RayHit> hits(count);
-    query->closest(many, hits);
+    caster->closest(many, hits);
     for (std::size_t i = 0; i < count; ++i)
         ASSERT_EQ(hits[i].distance, i % 2 == 0 ? 1.0f : RayCaster::kNothing) << i;
 }
@@ -119,7 +128,7 @@ TEST(RaysOfADeviceWithoutQueries, AreRefusedWithARemedy)
         cast_by_queries(device, rays);
         FAIL() << "they were cast";
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("use --rays host"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("use --rays tree"), std::string::npos);
     }
 }
 

@@ -1,12 +1,16 @@
 #pragma once
 // Rooms that rays of two casters are compared in.
 
+#include <array>
+#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "../../support/box_lumels.h"
 #include "gpu/device.h"
+#include "links/trace/links_options.h"
+#include "rays/device/device_caster.h"
 
 namespace lumel::support {
 
@@ -43,12 +47,27 @@ inline Scene room_with_curtains()
     return scene;
 }
 
-/// A test on a device with ray queries; elsewhere it is skipped.
-class OnDeviceWithRayQueries : public testing::Test {
+/// A way of a device to cast rays.
+struct DeviceRays {
+    const char* name;
+    Rays option;
+    std::unique_ptr<RayCaster> (*cast)(const gpu::Device& device, const RayScene& rays);
+};
+
+inline const std::array kDeviceRays = {DeviceRays{"query", Rays::query, cast_by_queries},
+                                       DeviceRays{"tree", Rays::tree, cast_by_tree}};
+
+inline std::string name_of_rays(const testing::TestParamInfo<DeviceRays>& test)
+{
+    return test.param.name;
+}
+
+/// A test of rays that a device casts; skipped if it cannot.
+class OnDevice : public testing::Test {
 protected:
-    void SetUp() override
+    void need(const DeviceRays& rays)
     {
-        if (!device.can_query_rays())
+        if (rays.option == Rays::query && !device.can_query_rays())
             GTEST_SKIP() << device.info().name
                          << " has no ray queries; tools/newer_mesa runs a program on one that has";
     }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_EXT_ray_query : require
-#include "rays/device/query_caster.shared.h"
+#include "rays/device/device_caster.shared.h"
 
 // Traces rays against the triangles of a scene. Geometry 0 is solid, geometry 1 may transmit light;
 // the caller decides which rays it transmits.
@@ -11,18 +11,6 @@ uniform accelerationStructureEXT triangles;
 layout(scalar) readonly buffer Rays { CastRay rays[]; };
 layout(scalar) writeonly buffer Hits { CastHit hits[]; };
 
-uint flags_of(uint wanted)
-{
-    switch (wanted) {
-    case kAnySolid:
-        return gl_RayFlagsCullNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT;
-    case kNearestPassable:
-        return gl_RayFlagsCullOpaqueEXT;
-    default:
-        return gl_RayFlagsOpaqueEXT;
-    }
-}
-
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
@@ -31,12 +19,15 @@ void main()
     const CastRay ray = rays[i];
     const uint any_mask = 0xffu;
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, triangles, flags_of(p.wanted), any_mask, ray.origin, ray.near,
-                          ray.direction, ray.far);
+    const uint flags =
+        p.wanted == kNearest ? gl_RayFlagsOpaqueEXT : gl_RayFlagsTerminateOnFirstHitEXT;
+    rayQueryInitializeEXT(query, triangles, flags, any_mask, ray.origin, ray.near, ray.direction,
+                          ray.far);
+    uint passable = kNoTriangle;
     while (rayQueryProceedEXT(query))
-        rayQueryConfirmIntersectionEXT(query);
+        passable = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false)) + p.solid;
     if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT) {
-        hits[i] = CastHit(kNoTriangle, ray.far, vec2(0.0));
+        hits[i] = CastHit(passable, ray.far, vec2(0.0));
         return;
     }
     const bool solid = rayQueryGetIntersectionGeometryIndexEXT(query, true) == 0;

@@ -1,0 +1,68 @@
+// Links whose rays a device casts, against those of the host and against a closed form.
+
+#include <tuple>
+
+#include <fmt/core.h>
+
+#include "../../jobs/closed_room.h"
+#include "../../support/closed_forms.h"
+#include "compared_links.h"
+
+namespace lumel {
+namespace {
+
+class LinksByDevice : public support::OnDevice,
+                      public testing::WithParamInterface<support::DeviceRays> {
+protected:
+    void SetUp() override { need(GetParam()); }
+    SolverOptions links(double error) const
+    {
+        return {.method = LinksOptions{.rays = GetParam().option}, .target_error = error};
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, LinksByDevice, testing::ValuesIn(support::kDeviceRays),
+                         support::name_of_rays);
+
+using RoomByDevice = std::tuple<support::ComparedRoom, support::DeviceRays>;
+
+class LinksInRoomsByDevice : public support::OnDevice,
+                             public testing::WithParamInterface<RoomByDevice> {
+protected:
+    void SetUp() override { need(std::get<support::DeviceRays>(GetParam())); }
+};
+
+std::string name_of_both(const testing::TestParamInfo<RoomByDevice>& test)
+{
+    const auto& [room, rays] = test.param;
+    return fmt::format("{}_{}", room.name, rays.name);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, LinksInRoomsByDevice,
+                         testing::Combine(testing::ValuesIn(support::kComparedRooms),
+                                          testing::ValuesIn(support::kDeviceRays)),
+                         name_of_both);
+
+TEST_P(LinksInRoomsByDevice, LightAsTheHostDoes)
+{
+    const auto& [room, rays] = GetParam();
+    support::expect_agreement(room, {.rays = rays.option}, {.rays = Rays::host}, 0.02);
+}
+
+TEST_P(LinksByDevice, MakeAClosedRoomGlowAsItsAbsorptionAllows)
+{
+    constexpr float kAlbedo = 0.9f;
+    const double truth = furnace_irradiance(1.0, double(kAlbedo));
+    EXPECT_NEAR(support::mean_in_closed_room(kAlbedo, links(0.02)), truth, 0.01 * truth);
+}
+
+TEST_P(LinksByDevice, GiveTheSameBytesAgain)
+{
+    const SolveScene world(support::scene_path("cornell-box"), {.size = 32});
+    const SolverOptions options = links(0.05);
+    EXPECT_EQ(support::solve_scene(world, options).irradiance,
+              support::solve_scene(world, options).irradiance);
+}
+
+}  // namespace
+}  // namespace lumel
