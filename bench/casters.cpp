@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -10,9 +11,11 @@
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include "base/core/parallel.h"
+#include "base/json/json_file.h"
 #include "bench/modes.h"
 #include "bench/stopwatch.h"
 #include "gpu/commands.h"
+#include "jobs/bake/bake.h"
 #include "rays/device/device_caster.h"
 #include "rays/device/device_caster.tree.comp.h"
 #include "rays/device/flat_tree.h"
@@ -24,6 +27,8 @@ namespace {
 
 /// Rays of a run.
 constexpr std::size_t kRays = std::size_t(1) << 21;
+/// Rays per lumel of a bake.
+constexpr std::uint64_t kBakedRays = 48;
 /// Runs of each caster, of which the fastest counts.
 constexpr int kTimes = 3;
 
@@ -128,6 +133,28 @@ void time_shader(const gpu::Device& device, const SolveScene& world,
                fmt::format("{} nodes, {} triangles", tree.nodes.size(), tree.triangles.size()));
 }
 
+/// Prints the wall time of a bake and of its stages, with rays cast in one way.
+void time_bake(const Settings& settings, const std::string& name, Rays rays)
+{
+    BakeOptions options;
+    options.lights = settings.lights;
+    options.atlas.size = settings.size;
+    options.device = settings.device;
+    options.preview_width = 0;
+    options.solver = {
+        .method = LinksOptions{.rays = rays}, .max_shots = kBakedRays, .target_error = 0.0};
+    const auto folder = std::filesystem::temp_directory_path() / "lumel-bench-casters";
+    const Json timings =
+        Json::parse(bake(settings.scene, folder.string(), options).report)["timings"];
+    std::filesystem::remove_all(folder);
+    const auto stage = [&](const char* of) {
+        return timings["gpu"].contains(of) ? 1e-3 * timings["gpu"][of]["total_ms"].get<double>()
+                                           : 0.0;
+    };
+    fmt::print("{:<28} {:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f}\n", name, stage("direct light"),
+               stage("links"), stage("sweeps"), timings["wall_seconds"].get<double>());
+}
+
 }  // namespace
 
 void time_casters(const Settings& settings)
@@ -135,6 +162,9 @@ void time_casters(const Settings& settings)
     const SolveScene world = prepare(settings, settings.size);
     if (world.lumels.lumels.empty())
         throw Error(ErrorKind::input, settings.scene, "has no surfaces that rays could leave");
+    if (!settings.lamp.empty() || !settings.box.empty())
+        throw Error(ErrorKind::input, "--casters",
+                    "bakes the scene as it is, without --lamp or --box");
     const gpu::Device device(settings.device);
     fmt::print("{} at {}: {} lumels; device: {} ({})\n", settings.scene, settings.size,
                world.lumels.lumels.size(), device.info().name, device.info().driver);
@@ -145,6 +175,14 @@ void time_casters(const Settings& settings)
         time_caster(*cast_by_queries(device, world.rays), rays, by_host);
     time_caster(*cast_by_tree(device, world.rays), rays, by_host);
     time_shader(device, world, rays);
+
+    fmt::print("\n{:<28} {:>10} {:>10} {:>10} {:>10}\n",
+               fmt::format("bakes with {} rays [s]", kBakedRays), "direct", "links", "sweeps",
+               "whole");
+    time_bake(settings, "host", Rays::host);
+    if (device.can_query_rays())
+        time_bake(settings, "query", Rays::query);
+    time_bake(settings, "tree", Rays::tree);
 }
 
 }  // namespace lumel::bench

@@ -57,7 +57,7 @@ void add_other_modes(CLI::App& app, Settings& settings)
                    "times what rays and close pairs take to follow this thing instead")
         ->type_name("THING");
     app.add_flag("--casters", settings.casters,
-                 "times rays that leave lumels instead: by the host and by the device");
+                 "times rays that leave lumels instead, and bakes: by the host and by the device");
     app.add_option("--seams", settings.seams,
                    "writes a picture of the map's seams before and after they are matched instead")
         ->type_name("FILE.png");

@@ -24,7 +24,7 @@ void time_following(const Settings& settings);
 /// Processor time that rays and close pairs take to follow a thing that moves.
 void time_moves(const Settings& settings);
 
-/// Rays per second of the host and of the device, by each way to cast them.
+/// Rays per second of the host and of the device, by each way to cast them, and bakes with them.
 void time_casters(const Settings& settings);
 
 /// Seams of the map before and after they are matched, as numbers and as a picture.

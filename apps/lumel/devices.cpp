@@ -6,11 +6,21 @@
 #include "base/json/json_file.h"
 #include "commands.h"
 #include "gpu/device.h"
+#include "links/trace/link_casters.h"
 
 namespace lumel {
 namespace {
 
 constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
+
+/// What casts rays on it, and why.
+std::string rays_text(const gpu::DeviceInfo& device)
+{
+    if (automatic_rays(device) == Rays::query)
+        return "query, as it has ray queries";
+    return device.type == "cpu" ? "host, as the device is a CPU"
+                                : "host, as it has no ray queries (VK_KHR_ray_query)";
+}
 
 void print_json(const std::vector<gpu::DeviceInfo>& devices)
 {
@@ -23,6 +33,7 @@ void print_json(const std::vector<gpu::DeviceInfo>& devices)
                         {"vulkan", device.api_version},
                         {"driver", device.driver},
                         {"memory_bytes", device.memory_bytes},
+                        {"ray_queries", device.ray_queries},
                         {"usable", device.usable},
                         {"reason", device.reason}});
     }
@@ -36,7 +47,9 @@ void print_table(const std::vector<gpu::DeviceInfo>& devices)
         fmt::print("{}  {}\n   {}, Vulkan {}, {:.1f} GiB, driver {}\n", index, device.name,
                    device.type, device.api_version,
                    static_cast<double>(device.memory_bytes) / kGibibyte, device.driver);
-        if (!device.usable)
+        if (device.usable)
+            fmt::print("   --rays auto: {}\n", rays_text(device));
+        else
             fmt::print("   cannot be used: {}\n", device.reason);
     }
 }

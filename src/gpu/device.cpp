@@ -112,8 +112,17 @@ VkInstance make_instance(bool validation)
         throw Error(ErrorKind::device, "",
                     std::string("no Vulkan driver was found; ") + kInstallDriver);
     check(result, "vkCreateInstance");
-    volkLoadInstance(instance);
     return instance;
+}
+
+/// One without layers, kept until the process ends, so that drivers stay loaded: on an H100,
+/// NVIDIA's driver (580.159) was not found any more after a process had made and destroyed some
+/// dozens.
+VkInstance kept_instance()
+{
+    static const VkInstance kept = make_instance(false);
+    volkLoadInstance(kept);
+    return kept;
 }
 
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance)
@@ -235,6 +244,7 @@ DeviceInfo describe(VkPhysicalDevice physical)
         if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
             info.memory_bytes =
                 std::max<std::uint64_t>(info.memory_bytes, memory.memoryHeaps[i].size);
+    info.ray_queries = has_ray_queries(physical);
     info.reason = missing_features(physical, properties.properties.apiVersion);
     info.usable = info.reason.empty();
     return info;
@@ -292,11 +302,9 @@ const DeviceInfo* best_of(const std::vector<DeviceInfo>& infos)
 std::vector<DeviceInfo> list_devices()
 {
     load_vulkan();
-    VkInstance instance = make_instance(false);
     std::vector<DeviceInfo> infos;
-    for (VkPhysicalDevice physical : physical_devices(instance))
+    for (VkPhysicalDevice physical : physical_devices(kept_instance()))
         infos.push_back(describe(physical));
-    vkDestroyInstance(instance, nullptr);
     return infos;
 }
 
@@ -323,8 +331,10 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
 {
     load_vulkan();
     const bool validation = validation_wanted();
-    instance_ = make_instance(validation);
+    instance_ = kept_instance();
     if (validation) {
+        instance_ = make_instance(true);
+        volkLoadInstance(instance_);
         const VkDebugUtilsMessengerCreateInfoEXT info{
             .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
             .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT |
@@ -456,10 +466,10 @@ Device::~Device()
         return;
     if (device_)
         vkDestroyDevice(device_, nullptr);
-    if (messenger_)
+    if (messenger_) {  // an instance of its own
         vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
-    if (instance_)
         vkDestroyInstance(instance_, nullptr);
+    }
 }
 
 std::string Device::validation_messages() const

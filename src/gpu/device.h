@@ -17,6 +17,7 @@ struct DeviceInfo {
     std::string api_version;         ///< "1.3.230"
     std::string driver;              ///< name and version
     std::uint64_t memory_bytes = 0;  ///< size of the largest device-local heap
+    bool ray_queries = false;        ///< supports VK_KHR_ray_query
     bool usable = false;
     std::string reason;  ///< why it is not usable, else empty
 };

@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
 #include "../support/input_error.h"
 #include "base/core/luminance.h"
+#include "base/core/pi.h"
 #include "base/images/image_files.h"
 #include "gltf_builder.h"
 #include "scene/sky/clear_sky.h"
@@ -208,6 +210,22 @@ TEST(LightOptions, LampsThatProfilesLeaveOutAreNamed)
     Scene none = with_lights();
     add_lights(none, {});
     EXPECT_FALSE(warns(none, "leaves out"));
+}
+
+TEST(LightOptions, PointLightsWhoseProfileShinesSidewaysAreNamed)
+{
+    const TempFolder folder;
+    LightOptions options;
+    add_profile(options, "bulb=" + folder.write("lamp.ies", std::string(kLamp)));
+    Scene level = with_lights();
+    add_lights(level, options);
+    EXPECT_TRUE(warns(level, "\"bulb\" shines sideways"));
+
+    Scene down = with_lights();
+    for (PunctualLight& light : down.lights)
+        light.transform = glm::rotate(light.transform, -kPi / 2.0f, glm::vec3(1, 0, 0));
+    add_lights(down, options);
+    EXPECT_FALSE(warns(down, "shines sideways"));
 }
 
 TEST(LightOptions, AProfileReplacesTheIntensityOfALight)

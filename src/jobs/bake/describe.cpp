@@ -168,7 +168,7 @@ Json facts(const SampledScene& sampled, const BakeOptions& options)
     json["occluding_triangles"] = occluders.inner_indices().size() / 3;
     const std::optional<MemoryLimits> limits = usual_limits(options);
     const GraphicsMemory memory =
-        graphics_memory(prepared, options, limits ? limits->type : std::string());
+        graphics_memory(prepared, options, limits ? limits->of : gpu::DeviceInfo{});
     json["graphics_memory_bytes"] = memory.most();
     json["graphics_memory_parts"] = json_of(memory);
     const bool shared = limits && limits->shared;

@@ -62,7 +62,7 @@ std::uint64_t GraphicsMemory::most() const
 }
 
 GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& options,
-                               const std::string& device_type)
+                               const gpu::DeviceInfo& device)
 {
     const auto* links = std::get_if<LinksOptions>(&options.solver.method);
     const float diagonal = glm::length(prepared.rays.high() - prepared.rays.low());
@@ -72,7 +72,7 @@ GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& op
     return {
         .staging = needs_world(options) ? gpu::Staging::device_bytes() : 0,
         .world = needs_world(options) ? World::device_bytes(prepared.lumels, prepared.atlas) : 0,
-        .rays = links ? caster_bytes(device_type, prepared.rays, links->rays) : 0,
+        .rays = links ? caster_bytes(device, prepared.rays, links->rays) : 0,
         .direct_light = method_of(options.solver.method).finds_lights
                             ? 0
                             : direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
@@ -91,10 +91,9 @@ MemoryLimits memory_limits(std::uint64_t max_memory, const gpu::DeviceInfo& devi
                       : shared ? available
                                : device.memory_bytes,
             .host = given ? max_memory : available,
-            .type = device.type,
             .shared = shared,
             .given = given,
-            .name = device.name};
+            .of = device};
 }
 
 MemoryLimits memory_limits(const BakeOptions& options, const gpu::DeviceInfo& device)
@@ -115,7 +114,7 @@ std::string shortage(const GraphicsMemory& device, const HostMemory& host, int s
         return sentence("graphics", device.most(), device.staging, side, limits.device,
                         limits.given    ? allowed
                         : limits.shared ? "this machine has"
-                                        : limits.name + " has");
+                                        : limits.of.name + " has");
     const std::uint64_t software = limits.shared ? device.most() : 0;
     const std::uint64_t fixed = host.fixed + (limits.shared ? device.staging : 0);
     if (limits.host > 0 && host.least() + software > limits.host)
@@ -138,7 +137,7 @@ void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLi
 void check_memory(const SolveScene& prepared, const BakeOptions& options,
                   const MemoryLimits& limits)
 {
-    refuse(shortage(graphics_memory(prepared, options, limits.type),
+    refuse(shortage(graphics_memory(prepared, options, limits.of),
                     host_memory(prepared, options, limits.shared), prepared.atlas.pages.side,
                     limits));
 }

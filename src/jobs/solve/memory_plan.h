@@ -17,17 +17,16 @@ struct GraphicsMemory {
 
     std::uint64_t most() const;
 };
-/// device_type: as gpu::DeviceInfo has it; empty: there is none.
+/// device: without a type if there is none.
 GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& options,
-                               const std::string& device_type);
+                               const gpu::DeviceInfo& device);
 
 /// Memory limits of a bake [bytes], 0: unknown.
 struct MemoryLimits {
     std::uint64_t device = 0, host = 0;
-    std::string type;     ///< of the device, as gpu::DeviceInfo has it
     bool shared = false;  ///< the device is the CPU: its memory is host memory
     bool given = false;   ///< by BakeOptions::max_memory; false: available memory
-    std::string name;     ///< name of the device
+    gpu::DeviceInfo of;   ///< without a type if there is no device
 };
 /// available: free memory of the machine [bytes], 0: unknown.
 MemoryLimits memory_limits(std::uint64_t max_memory, const gpu::DeviceInfo& device,

@@ -2,7 +2,6 @@
 // Ray tracing backends of the link engine.
 
 #include <cstdint>
-#include <string>
 
 #include "gpu/device.h"
 #include "links/direct/link_work.h"
@@ -10,12 +9,15 @@
 
 namespace lumel {
 
+/// What Rays::automatic stands for. Not Rays::tree: on an H100 beside 16 cores, bakes took longer
+/// with it than on the host (docs/methods.md). device: without a type if there is none.
+Rays automatic_rays(const gpu::DeviceInfo& device);
+
 /// The backend of the options; `rays` must outlive it. device: null if there is none. Throws
 /// Error{device} if the device lacks the backend.
 LinkWork::Casters casters_for(const gpu::Device* device, const RayScene& rays, Rays wanted);
 
-/// Device memory of that backend [bytes]: 0 for the host's. device: its type, as gpu::DeviceInfo
-/// has it.
-std::uint64_t caster_bytes(const std::string& device, const RayScene& rays, Rays wanted);
+/// Device memory of that backend [bytes]: 0 for the host's.
+std::uint64_t caster_bytes(const gpu::DeviceInfo& device, const RayScene& rays, Rays wanted);
 
 }  // namespace lumel

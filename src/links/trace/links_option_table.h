@@ -29,8 +29,7 @@ inline constexpr OptionInfo kLinksOptions[] = {
     {.name = "rays",
      .help = "Ray tracing by the CPU (host), by ray queries of the GPU (query, VK_KHR_ray_query), "
              "by compute shaders of the GPU that walk a BVH (tree), or by rasterisation on the GPU "
-             "for rays that leave lumels (raster); auto: host if the Vulkan device is a CPU, else "
-             "query if the GPU supports it, else tree",
+             "for rays that leave lumels (raster); auto: query if a GPU supports it, else host",
      .words = kRayCasters,
      .member = member<&LinksOptions::rays>},
 };

@@ -9,7 +9,7 @@ namespace lumel {
 
 /// Ray tracing backend.
 enum class Rays {
-    automatic,  ///< GPU ray queries, or a tree, if the device is not a CPU; else the host
+    automatic,  ///< GPU ray queries if the device has them and is not a CPU; else the host
     host,
     query,   ///< the device's ray queries
     tree,    ///< compute shaders of the device, which walk a BVH

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "rays/cast/ray_caster.h"
+
 namespace lumel {
 
 DeviceTriangles::DeviceTriangles(const RayScene& rays)
@@ -23,6 +25,18 @@ DeviceTriangles::Place DeviceTriangles::place(std::uint32_t triangle) const
     const auto next = std::upper_bound(before_.begin(), before_.end(), triangle);
     const auto n = std::size_t(next - before_.begin()) - 1;
     return {parts_[n], triangle - before_[n]};
+}
+
+RayHit DeviceTriangles::hit(const RayScene& rays, const RaySpan& ray, const Met& met) const
+{
+    if (met.triangle >= solid_) {
+        RayHit hit;
+        if (!rays.closest(ray, hit))
+            hit.distance = RayCaster::kNothing;
+        return hit;
+    }
+    const auto [part, triangle] = place(met.triangle);
+    return rays.hit(part, triangle, met.barycentric, met.distance, ray.direction);
 }
 
 DeviceTriangles::Mesh DeviceTriangles::mesh(const RayScene& rays) const

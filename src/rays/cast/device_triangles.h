@@ -19,11 +19,15 @@ public:
     std::uint32_t solid() const { return solid_; }  ///< triangles
     std::uint32_t count() const { return count_; }  ///< triangles
 
-    struct Place {
-        std::size_t part;
-        std::uint32_t triangle;  ///< in its part
+    /// What a ray met on the device.
+    struct Met {
+        std::uint32_t triangle;
+        float distance;         ///< [m]
+        glm::vec2 barycentric;  ///< weights of its 2nd and 3rd vertex
     };
-    Place place(std::uint32_t triangle) const;
+    /// The hit of that ray. If the triangle may transmit light, the host casts the ray again, so
+    /// that all casters decide alike. rays: the scene given to the constructor.
+    RayHit hit(const RayScene& rays, const RaySpan& ray, const Met& met) const;
 
     struct Mesh {
         std::vector<glm::vec3> positions;    ///< world [m]
@@ -33,6 +37,12 @@ public:
     Mesh mesh(const RayScene& rays) const;
 
 private:
+    struct Place {
+        std::size_t part;
+        std::uint32_t triangle;  ///< in its part
+    };
+    Place place(std::uint32_t triangle) const;
+
     std::vector<std::size_t> parts_;     ///< in the order of their triangles
     std::vector<std::uint32_t> before_;  ///< [parts] triangles before the part
     std::uint32_t solid_ = 0, count_ = 0;

@@ -10,10 +10,6 @@
 
 namespace lumel {
 
-/// Factor from a hit distance to just behind it, despite rounding, so that a ray does not hit the
-/// same surface again.
-inline constexpr float kBehind = 1.0f + 8.0f * std::numeric_limits<float>::epsilon();
-
 /// Traces batches of rays. Thread-safe; a result depends only on its ray. All casters agree up to
 /// rounding: equal seeds pass equal surfaces.
 class RayCaster {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "rays/cast/embree_trees.h"
@@ -411,13 +412,6 @@ bool RayScene::may_let_pass(std::size_t part) const
 {
     const TracedPart& from = trees_->parts()[part];
     return may_be_transparent(from.scene->materials[from.source->material], *from.source);
-}
-
-std::optional<glm::vec3> RayScene::transmittance(std::size_t part, std::uint32_t triangle,
-                                                 const glm::vec2& barycentric,
-                                                 std::uint32_t seed) const
-{
-    return tint_through(trees_->parts()[part], triangle, barycentric, seed);
 }
 
 RayHit RayScene::hit(std::size_t number, std::uint32_t triangle, const glm::vec2& barycentric,

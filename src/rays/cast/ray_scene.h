@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -114,10 +113,6 @@ public:
     std::vector<glm::vec3> positions(std::size_t part) const;        ///< vertices, world [m]
     std::span<const std::uint32_t> corners(std::size_t part) const;  ///< [triangles][3] indices
     bool may_let_pass(std::size_t part) const;                       ///< MASK, BLEND or glass
-
-    /// Transmittance at a point of a triangle; nullopt if a ray of this seed hits it.
-    std::optional<glm::vec3> transmittance(std::size_t part, std::uint32_t triangle,
-                                           const glm::vec2& barycentric, std::uint32_t seed) const;
 
     /// Builds a RayHit from its parameters.
     RayHit hit(std::size_t part, std::uint32_t triangle, const glm::vec2& barycentric,

@@ -245,17 +245,7 @@ void BundleCaster::Data::take(const BundleHit& one, const RaySpan& ray, RayHit& 
     hit.tint = glm::vec3(1.0f);
     if (one.triangle == kNoneListed)
         return;
-    const auto [part, triangle] = triangles.place(one.triangle);
-    if (one.triangle >= triangles.solid())
-        if (const auto tint = rays.transmittance(part, triangle, one.barycentric, ray.seed)) {
-            RaySpan behind = ray;
-            behind.near = kBehind * one.distance;
-            if (!(behind.far > behind.near) || !rays.closest(behind, hit))
-                hit.distance = RayCaster::kNothing;
-            hit.tint *= *tint;
-            return;
-        }
-    hit = rays.hit(part, triangle, one.barycentric, one.distance, ray.direction);
+    hit = triangles.hit(rays, ray, {one.triangle, one.distance, one.barycentric});
 }
 
 /// Splits a part that exceeds the lists in halves. Testing a triangle twice does not change hits.

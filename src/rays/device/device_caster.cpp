@@ -1,6 +1,3 @@
-// The GPU only has triangles. The CPU decides about surfaces that may transmit light, by the rule
-// and the random numbers of RayScene, so that all casters agree, and casts what rays they let pass.
-
 #include "rays/device/device_caster.h"
 
 #include <algorithm>
@@ -9,7 +6,6 @@
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -26,6 +22,8 @@ namespace {
 
 /// Rays per dispatch: enough to hide what starting it costs.
 constexpr std::size_t kBatch = std::size_t(1) << 15;
+/// Hits at the very end of a ray count, as on the CPU, despite rounding.
+constexpr float kToTheEnd = 1.0f + 8.0f * std::numeric_limits<float>::epsilon();
 constexpr float kFar = std::numeric_limits<float>::max();
 
 /// Records the cast of rays by one of the kernels.
@@ -48,9 +46,8 @@ public:
     {
         if (!(ray.far > ray.near))
             return;
-        // Hits at the very end of a ray count, as on the CPU.
         sent()[which_.size()] = {ray.origin, ray.near, ray.direction,
-                                 std::min(kBehind * ray.far, kFar)};
+                                 std::min(kToTheEnd * ray.far, kFar)};
         which_.push_back(i);
     }
     void clear() { which_.clear(); }
@@ -159,19 +156,7 @@ void DeviceCaster::find_closest(Lane& lane, std::span<const RaySpan> rays,
         if (one.triangle == kNoTriangle)
             continue;
         const std::uint32_t i = lane.which()[n];
-        const RaySpan& ray = rays[i];
-        const auto [part, triangle] = triangles_.place(one.triangle);
-        if (one.triangle >= triangles_.solid())
-            if (const std::optional<glm::vec3> tint =
-                    rays_.transmittance(part, triangle, one.barycentric, ray.seed)) {
-                RaySpan behind = ray;
-                behind.near = kBehind * one.distance;
-                if (!rays_.closest(behind, hits[i]))
-                    hits[i].distance = kNothing;
-                hits[i].tint *= *tint;
-                continue;
-            }
-        hits[i] = rays_.hit(part, triangle, one.barycentric, one.distance, ray.direction);
+        hits[i] = triangles_.hit(rays_, rays[i], {one.triangle, one.distance, one.barycentric});
     }
 }
 

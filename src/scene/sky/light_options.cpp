@@ -172,14 +172,14 @@ bool can_have_profile(const PunctualLight& light)
     return light.kind != PunctualLight::Kind::directional;
 }
 
-/// Names of lights that can have a profile, without duplicates: "\"a\", \"b\"", and the number of
-/// others. without_one: only lights without a profile.
-std::string names_of(const Scene& scene, bool without_one)
+/// Names of lights that can have a profile, of those that `chosen` picks, without duplicates:
+/// "\"a\", \"b\"", and the number of others.
+std::string names_of(const Scene& scene, bool (*chosen)(const PunctualLight& light))
 {
     constexpr std::size_t kMax = 12;  // names per sentence
     std::vector<std::string> names;
     for (const PunctualLight& light : scene.lights)
-        if (can_have_profile(light) && !(without_one && light.profile >= 0) &&
+        if (can_have_profile(light) && chosen(light) &&
             std::find(names.begin(), names.end(), light.name) == names.end())
             names.push_back(light.name);
     std::string list;
@@ -216,7 +216,7 @@ void attach_profile(Scene& scene, const LightProfile& profile)
             found = true;
         }
     if (!found) {
-        const std::string names = names_of(scene, false);
+        const std::string names = names_of(scene, [](const PunctualLight&) { return true; });
         refuse("--ies", "the scene has no point or spot light " + quoted(profile.light) +
                             (names.empty() ? ", nor any other" : "; it has " + names));
     }
@@ -227,10 +227,28 @@ void attach_profile(Scene& scene, const LightProfile& profile)
 /// Warns of lights without a profile, such as copies that editors number.
 void warn_of_left_out(Scene& scene)
 {
-    if (const std::string names = names_of(scene, true); !names.empty())
+    const std::string names =
+        names_of(scene, [](const PunctualLight& light) { return light.profile < 0; });
+    if (!names.empty())
         scene.warnings.push_back("--ies leaves out " + names +
                                  ": they keep the intensity of the file; a * in the name stands "
                                  "for any letters, as in 'lamp*=FILE'");
+}
+
+/// Editors show a point light without a direction, so that nobody sees that its nadir is level.
+bool shines_sideways(const PunctualLight& light)
+{
+    constexpr float kLevel = 0.02f;  // sine of about 1°
+    return light.kind == PunctualLight::Kind::point && light.profile >= 0 &&
+           std::abs(light.transform[2].y) < kLevel;
+}
+
+void warn_of_sideways(Scene& scene)
+{
+    if (const std::string names = names_of(scene, shines_sideways); !names.empty())
+        scene.warnings.push_back("the photometric file of " + names +
+                                 " shines sideways: its nadir is the light's -z, which is level; "
+                                 "turn the light by -90° about x to point it down");
 }
 
 }  // namespace
@@ -243,6 +261,7 @@ void add_lights(Scene& scene, const LightOptions& options)
         attach_profile(scene, profile);
     if (!options.profiles.empty())
         warn_of_left_out(scene);
+    warn_of_sideways(scene);
     if (options.sun)
         add_sun(scene, options);
     give_sizes(scene, options);
