@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include <unistd.h>
+
 #include <fmt/core.h>
 #include <glm/gtc/matrix_inverse.hpp>
 
@@ -32,7 +34,7 @@ constexpr std::uint64_t kBakedRays = 48;
 /// Runs of each caster, of which the fastest counts.
 constexpr int kTimes = 3;
 
-/// Of distances of up to a metre [m], and above of each metre.
+/// Rounding of distances [m], and of each metre beyond the first.
 constexpr float kRounding = 1e-5f;
 
 /// Rays out of lumels, distributed by the cosine of their angle to the normal.
@@ -143,7 +145,8 @@ void time_bake(const Settings& settings, const std::string& name, Rays rays)
     options.preview_width = 0;
     options.solver = {
         .method = LinksOptions{.rays = rays}, .max_shots = kBakedRays, .target_error = 0.0};
-    const auto folder = std::filesystem::temp_directory_path() / "lumel-bench-casters";
+    const auto folder =
+        std::filesystem::temp_directory_path() / fmt::format("lumel-bench-casters-{}", getpid());
     const Json timings =
         Json::parse(bake(settings.scene, folder.string(), options).report)["timings"];
     std::filesystem::remove_all(folder);
@@ -159,12 +162,12 @@ void time_bake(const Settings& settings, const std::string& name, Rays rays)
 
 void time_casters(const Settings& settings)
 {
-    const SolveScene world = prepare(settings, settings.size);
-    if (world.lumels.lumels.empty())
-        throw Error(ErrorKind::input, settings.scene, "has no surfaces that rays could leave");
     if (!settings.lamp.empty() || !settings.box.empty())
         throw Error(ErrorKind::input, "--casters",
                     "bakes the scene as it is, without --lamp or --box");
+    const SolveScene world = prepare(settings, settings.size);
+    if (world.lumels.lumels.empty())
+        throw Error(ErrorKind::input, settings.scene, "has no surfaces that rays could leave");
     const gpu::Device device(settings.device);
     fmt::print("{} at {}: {} lumels; device: {} ({})\n", settings.scene, settings.size,
                world.lumels.lumels.size(), device.info().name, device.info().driver);

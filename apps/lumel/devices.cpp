@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
 
-/// What casts rays on it, and why.
+/// The backend of --rays auto, with the reason.
 std::string rays_text(const gpu::DeviceInfo& device)
 {
     if (automatic_rays(device) == Rays::query)

@@ -115,9 +115,8 @@ VkInstance make_instance(bool validation)
     return instance;
 }
 
-/// One without layers, kept until the process ends, so that drivers stay loaded: on an H100,
-/// NVIDIA's driver (580.159) was not found any more after a process had made and destroyed some
-/// dozens.
+/// An instance without layers. Kept until the process ends, so that drivers stay loaded: NVIDIA's
+/// (580.159) was no longer found after a process had made and destroyed dozens of instances.
 VkInstance kept_instance()
 {
     static const VkInstance kept = make_instance(false);
@@ -418,6 +417,7 @@ Device::Device(const HostDevice& host)
     volkLoadInstance(instance_);
     volkLoadDevice(device_);
     info_ = describe(physical_);
+    info_.ray_queries = can_query_rays_;
     if (!info_.usable)
         throw Error(ErrorKind::device, info_.name, info_.reason);
     load_debug_utils();

@@ -45,6 +45,13 @@ TEST(GraphicsMemory, OfEveryMethodIsAsDescribed)
         expect_as_described("cornell-box", small(method.id));
 }
 
+TEST(GraphicsMemory, OfRaysOnTheDeviceIsAsDescribed)
+{
+    BakeOptions options = small("links");
+    set_option(options.solver.method, "rays", "tree");
+    expect_as_described("cornell-box", options);
+}
+
 TEST(GraphicsMemory, OfDirectionalLayersIsAsDescribed)
 {
     BakeOptions options = small(methods().front().id);

@@ -3,9 +3,9 @@
 #include "base/core/shared.h"
 LUMEL_SHARED_BEGIN
 
-/// 2⁻¹²⁶. By smaller numbers Vulkan devices may divide as they like; some find infinity. Light of a
-/// lamp that went out fades away through such numbers.
-LUMEL_CONST float kLeastDivisor = 1.1754944e-38f;
+/// 2⁻¹²⁶. Vulkan does not define the result of a division by less, and some devices return
+/// infinity. After a lamp is switched off, the light left becomes that small.
+LUMEL_CONST float kMinDivisor = 1.1754944e-38f;
 
 LUMEL_SHARED_END
 #endif

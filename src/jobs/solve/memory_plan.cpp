@@ -69,10 +69,12 @@ GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& op
     const SolveSize size{
         &prepared.lumels,
         near_pairs_for(prepared.scene, prepared.rays, prepared.lumels, options.solver), diagonal};
+    const std::uint64_t ray_bytes = links ? caster_bytes(device, prepared.rays, links->rays) : 0;
+    const bool uploads = needs_world(options) || ray_bytes > 0;
     return {
-        .staging = needs_world(options) ? gpu::Staging::device_bytes() : 0,
+        .staging = uploads ? gpu::Staging::device_bytes() : 0,
         .world = needs_world(options) ? World::device_bytes(prepared.lumels, prepared.atlas) : 0,
-        .rays = links ? caster_bytes(device, prepared.rays, links->rays) : 0,
+        .rays = ray_bytes,
         .direct_light = method_of(options.solver.method).finds_lights
                             ? 0
                             : direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
@@ -111,12 +113,13 @@ std::string shortage(const GraphicsMemory& device, const HostMemory& host, int s
 {
     const char* allowed = "--max-memory allows";
     if (limits.device > 0 && device.most() > limits.device)
-        return sentence("graphics", device.most(), device.staging, side, limits.device,
+        return sentence("graphics", device.most(), device.staging + device.rays, side,
+                        limits.device,
                         limits.given    ? allowed
                         : limits.shared ? "this machine has"
                                         : limits.of.name + " has");
     const std::uint64_t software = limits.shared ? device.most() : 0;
-    const std::uint64_t fixed = host.fixed + (limits.shared ? device.staging : 0);
+    const std::uint64_t fixed = host.fixed + (limits.shared ? device.staging + device.rays : 0);
     if (limits.host > 0 && host.least() + software > limits.host)
         return sentence("host", host.least() + software, fixed, side, limits.host,
                         limits.given ? allowed : "this machine has");

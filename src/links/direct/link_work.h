@@ -41,7 +41,7 @@ struct LinkWork {
 
     const std::vector<Lumel>& lumels() const { return scene.lumels.lumels; }
     const RayCaster& caster() const { return *casters.rays; }  ///< of rays in large numbers
-    /// Of the few that go on: a device would take longer to answer than they take here.
+    /// Casts reflected rays, which are few, on the CPU: a round trip to a GPU takes longer.
     const RayCaster& caster_of_few() const { return *host_; }
     bool is_buried(std::size_t lumel) const { return (lumels()[lumel].flags & kLumelBuried) != 0; }
 

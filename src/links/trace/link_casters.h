@@ -9,8 +9,9 @@
 
 namespace lumel {
 
-/// What Rays::automatic stands for. Not Rays::tree: on an H100 beside 16 cores, bakes took longer
-/// with it than on the host (docs/methods.md). device: without a type if there is none.
+/// The backend that Rays::automatic selects: never Rays::tree, with which bakes on an H100 beside
+/// 16 cores took longer than on the host (bench/performance.md). device: without a type if there is
+/// none.
 Rays automatic_rays(const gpu::DeviceInfo& device);
 
 /// The backend of the options; `rays` must outlive it. device: null if there is none. Throws

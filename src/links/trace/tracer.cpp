@@ -271,9 +271,9 @@ void LinkTracer::follow(RayBatch& wave) const
     for (int reflections = 0; !wave.rays.empty(); ++reflections) {
         const std::size_t count = wave.rays.size();
         wave.hits.resize(std::max(wave.hits.size(), count));
+        const RayCaster& caster = reflections > 0 ? work_.caster_of_few() : work_.caster();
         if (reflections > 0 || !wave.is_cast)
-            (reflections > 0 ? work_.caster_of_few() : work_.caster())
-                .closest(wave.rays, std::span(wave.hits).first(count));
+            caster.closest(wave.rays, std::span(wave.hits).first(count));
         wave.arrivals.clear();
         find_landings(wave);
         if (reflections == 0)

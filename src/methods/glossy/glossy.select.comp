@@ -71,8 +71,8 @@ float probability_of(uint j)
             by_power += power[leaves + m];
             by_area += area_power[leaves + m];
         }
-    return (1.0 - p.area_share) * by_power / power[top] +
-           (p.area_share > 0.0 ? p.area_share * by_area / area_power[top] : 0.0);
+    return (1.0 - p.area_share) * share_of(by_power, power[top]) +
+           (p.area_share > 0.0 ? p.area_share * share_of(by_area, area_power[top]) : 0.0);
 }
 
 Sender draw(vec3 u, bool by_area)
@@ -109,7 +109,7 @@ void send_lobes(uint k, Sender y, vec3 scale, uint count, float lobes, uint rand
     uint l = 0u;
     for (uint earlier = 0u; earlier < p.before; ++earlier) {
         const float mine = lobe_power(y, earlier);
-        if (mine < kLeastDivisor)
+        if (mine < kMinDivisor)
             continue;
         const vec3 light = light_on_lobes(y.lumel, earlier);
         const vec3 toward = normalize(before[earlier].position - y.position);
@@ -145,7 +145,7 @@ void main()
     GlossyShot shot =
         GlossyShot(diffuse_power(y.lumel) * scale / kPi, lumels[y.lumel].position,
                    max(lumels[y.lumel].size, sqrt(y.area)), 0u, g.shininess, y.area / kPi, y.lumel);
-    if (lobes >= kLeastDivisor)
+    if (lobes >= kMinDivisor)
         shot.lobes = g.shininess < kNarrowLobe ? 1u : min(p.before, kMaxLobes);
     shots[k] = shot;
     send_lobes(k, y, scale, shot.lobes, lobes, random);

@@ -27,16 +27,16 @@ DeviceTriangles::Place DeviceTriangles::place(std::uint32_t triangle) const
     return {parts_[n], triangle - before_[n]};
 }
 
-RayHit DeviceTriangles::hit(const RayScene& rays, const RaySpan& ray, const Met& met) const
+RayHit DeviceTriangles::hit(const RayScene& rays, const RaySpan& ray, const DeviceHit& found) const
 {
-    if (met.triangle >= solid_) {
+    if (found.triangle >= solid_) {
         RayHit hit;
         if (!rays.closest(ray, hit))
             hit.distance = RayCaster::kNothing;
         return hit;
     }
-    const auto [part, triangle] = place(met.triangle);
-    return rays.hit(part, triangle, met.barycentric, met.distance, ray.direction);
+    const auto [part, triangle] = place(found.triangle);
+    return rays.hit(part, triangle, found.barycentric, found.distance, ray.direction);
 }
 
 DeviceTriangles::Mesh DeviceTriangles::mesh(const RayScene& rays) const

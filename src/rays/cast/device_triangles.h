@@ -19,15 +19,15 @@ public:
     std::uint32_t solid() const { return solid_; }  ///< triangles
     std::uint32_t count() const { return count_; }  ///< triangles
 
-    /// What a ray met on the device.
-    struct Met {
+    /// Hit that the device found.
+    struct DeviceHit {
         std::uint32_t triangle;
         float distance;         ///< [m]
         glm::vec2 barycentric;  ///< weights of its 2nd and 3rd vertex
     };
     /// The hit of that ray. If the triangle may transmit light, the host casts the ray again, so
     /// that all casters decide alike. rays: the scene given to the constructor.
-    RayHit hit(const RayScene& rays, const RaySpan& ray, const Met& met) const;
+    RayHit hit(const RayScene& rays, const RaySpan& ray, const DeviceHit& found) const;
 
     struct Mesh {
         std::vector<glm::vec3> positions;    ///< world [m]

@@ -33,8 +33,8 @@ public:
     BundleCaster(const gpu::Device& device, const RayScene& rays);
     ~BundleCaster();
 
-    /// hits [rays]: closest hits, as in RayCaster. Rays that pass glass, blended surfaces or
-    /// cut-outs continue on the CPU. Not thread-safe.
+    /// hits [rays]: closest hits, as in RayCaster. Rays that meet glass, blended surfaces or
+    /// cut-outs are cast again by the CPU. Not thread-safe.
     void closest(const RayBundles& bundles, std::span<RayHit> hits) const;
 
 private:

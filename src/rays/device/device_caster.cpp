@@ -20,8 +20,9 @@
 namespace lumel {
 namespace {
 
-/// Rays per dispatch: enough to hide what starting it costs.
-constexpr std::size_t kBatch = std::size_t(1) << 15;
+/// Rays per dispatch: few enough that a step of the tracer has some for each core, and a core takes
+/// far longer to make them than the GPU to answer.
+constexpr std::size_t kBatch = std::size_t(1) << 13;
 /// Hits at the very end of a ray count, as on the CPU, despite rounding.
 constexpr float kToTheEnd = 1.0f + 8.0f * std::numeric_limits<float>::epsilon();
 constexpr float kFar = std::numeric_limits<float>::max();
@@ -30,8 +31,8 @@ constexpr float kFar = std::numeric_limits<float>::max();
 using Cast = std::function<void(gpu::Commands& commands, const gpu::Array<CastRay>& rays,
                                 const gpu::Array<CastHit>& hits, const CastParams& params)>;
 
-/// What a thread casts rays with. The device reads and writes host memory: each ray and hit crosses
-/// the bus once.
+/// The buffers of a thread that casts rays. The device reads and writes host memory: each ray and
+/// hit crosses the bus once.
 class Lane {
 public:
     explicit Lane(const gpu::Device& device)
@@ -226,8 +227,7 @@ struct TreeOnDevice {
     gpu::Kernel<shaders::DeviceCasterTree> cast;
 };
 
-/// Of a triangle in either tree, with its share of the nodes [bytes]: 80 in Sponza's, 88 in a
-/// town's.
+/// Memory of a triangle with its share of the nodes [bytes]: 80 in Sponza; an estimate for queries.
 constexpr std::uint64_t kTriangleBytes = sizeof(TreeTriangle) + sizeof(TreeNode) * 5 / 8;
 
 }  // namespace
@@ -255,6 +255,10 @@ std::unique_ptr<RayCaster> cast_by_queries(const gpu::Device& device, const RayS
 std::unique_ptr<RayCaster> cast_by_tree(const gpu::Device& device, const RayScene& rays)
 {
     DeviceTriangles triangles(rays);
+    if (triangles.count() * std::uint64_t(sizeof(TreeTriangle)) > device.max_array_bytes())
+        throw Error(ErrorKind::device, "--rays tree",
+                    "the scene has more triangles than an array of " + device.info().name +
+                        " can hold; use --rays host");
     const auto tree = std::make_shared<TreeOnDevice>(device, build_flat_tree(triangles.mesh(rays)));
     return std::make_unique<DeviceCaster>(
         device, rays, std::move(triangles), "tree",

@@ -15,8 +15,8 @@ namespace lumel {
 /// queries (Device::can_query_rays) or memory.
 std::unique_ptr<RayCaster> cast_by_queries(const gpu::Device& device, const RayScene& rays);
 
-/// The same on any device, by a BVH that the host builds (build_flat_tree). Throws Error{device} if
-/// the device or the host lacks memory.
+/// Casts rays on any device, by a BVH that the host builds (build_flat_tree). Throws Error{device}
+/// if the device or the host lacks memory, or the scene exceeds the arrays of the device.
 std::unique_ptr<RayCaster> cast_by_tree(const gpu::Device& device, const RayScene& rays);
 
 /// Memory of either [bytes], arrays that the device shares with the host included, if all cores

@@ -16,7 +16,7 @@ constexpr unsigned kLeaf = 4;
 constexpr std::size_t kPieceAlignment = 16;
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 
-/// What Embree's builder makes: a leaf if it has triangles, else a node.
+/// A node or leaf that Embree builds: a leaf if it has triangles, else a node.
 struct TreePiece {
     unsigned count = 0;
     std::array<std::uint32_t, kLeaf> triangles{};
@@ -60,7 +60,9 @@ std::vector<RTCBuildPrimitive> primitives_of(const DeviceTriangles::Mesh& mesh)
 {
     std::vector<RTCBuildPrimitive> primitives(mesh.corners.size() / 3);
     for (std::uint32_t t = 0; t < primitives.size(); ++t) {
-        const auto corner = [&](unsigned k) { return mesh.positions[mesh.corners[3 * t + k]]; };
+        const auto corner = [&](unsigned k) {
+            return mesh.positions[mesh.corners[3 * std::size_t(t) + k]];
+        };
         const glm::vec3 low = glm::min(corner(0), glm::min(corner(1), corner(2)));
         const glm::vec3 high = glm::max(corner(0), glm::max(corner(1), corner(2)));
         primitives[t] = {low.x, low.y, low.z, 0, high.x, high.y, high.z, t};
@@ -68,7 +70,7 @@ std::vector<RTCBuildPrimitive> primitives_of(const DeviceTriangles::Mesh& mesh)
     return primitives;
 }
 
-/// Copies what Embree made, depth first.
+/// Copies the tree that Embree built, depth first.
 class Flattened {
 public:
     explicit Flattened(const DeviceTriangles::Mesh& mesh) : mesh_(mesh) {}
@@ -151,7 +153,8 @@ FlatTree build_flat_tree(const DeviceTriangles::Mesh& mesh)
     if (primitives.empty())
         return Flattened(mesh).of(nullptr);
     const std::unique_ptr<RTCDeviceTy, Released<rtcReleaseDevice>> device(rtcNewDevice(nullptr));
-    const std::unique_ptr<RTCBVHTy, Released<rtcReleaseBVH>> bvh(rtcNewBVH(device.get()));
+    const std::unique_ptr<RTCBVHTy, Released<rtcReleaseBVH>> bvh(device ? rtcNewBVH(device.get())
+                                                                        : nullptr);
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = 2;
@@ -164,10 +167,13 @@ FlatTree build_flat_tree(const DeviceTriangles::Mesh& mesh)
     arguments.setNodeChildren = set_children;
     arguments.setNodeBounds = set_bounds;
     arguments.createLeaf = make_leaf;
-    const auto* root = static_cast<const TreePiece*>(rtcBuildBVH(&arguments));
+    const auto* root = static_cast<const TreePiece*>(bvh ? rtcBuildBVH(&arguments) : nullptr);
     if (!root)
         throw Error(ErrorKind::device, "--rays tree",
-                    "the tree of its triangles could not be built: out of memory");
+                    std::string("the tree of its triangles could not be built: ") +
+                        (rtcGetDeviceError(device.get()) == RTC_ERROR_OUT_OF_MEMORY
+                             ? "out of memory"
+                             : "Embree failed; use --rays host"));
     return Flattened(mesh).of(root);
 }
 

@@ -9,8 +9,8 @@ layout(std430) readonly buffer Triangles { vec4 triangles[]; };  // TreeTriangle
 const uint kVectorsOfNode = 4u;
 const uint kVectorsOfTriangle = 3u;
 const float kMissed = 3.4e38;
-/// 1 + 2 γ(3) [Ize13, 3]: what rounding may take off the far end of a box.
-const float kRobust = 1.0 + 6.0 * 1.2e-7;
+/// Rounding of both ends of a box [Ize13, 3]: 2 γ(3), and twice the 2.5 ulp of Vulkan's division.
+const float kRobust = 1.0 + 16.0 * 6e-8;
 
 /// A ray as both tests need it.
 struct Prepared {
@@ -35,7 +35,7 @@ Prepared prepared(CastRay ray)
     return Prepared(ray.origin, 1.0 / nonzero, vec3(d.xy, 1.0) / d.z, axis);
 }
 
-/// Where a ray enters a box [m]; kMissed if it does not before `far`.
+/// Distance at which a ray enters a box [m]; kMissed if it does not before `far`.
 float entry(Prepared ray, float near, float far, vec3 low, vec3 high)
 {
     const vec3 to_low = (low - ray.origin) * ray.inverse;
@@ -96,7 +96,7 @@ CastHit trace(CastRay given, uint wanted, uint solid)
                         return hit;
                     best.triangle = hit.triangle;
                 } else if (hit.distance < best.distance || hit.triangle < best.triangle)
-                    best = hit;  // of equal distances by number: the order of the tree is hidden
+                    best = hit;  // of equal distances the lower number
             }
             enters[k] = kMissed;
         }

@@ -35,7 +35,7 @@ vec3 level(Averages averages, uint h)
     vec3 s = vec3(1.0);
     for (int c = 0; c < 3; ++c) {
         const float power = totals[0].column[kSourceColumn][c];
-        if (power < kLeastDivisor || !has_indirect(averages, h))
+        if (power < kMinDivisor || !has_indirect(averages, h))
             continue;
         const float returned = (n * totals[0].column[kPhaseColumn + h][c] / power +
                                 w * totals[0].column[kEarlierColumn + h][c]) / (n + w) +
@@ -59,7 +59,7 @@ vec3 far_pattern(Averages averages, uint h, vec3 phase_sum, vec3 earlier)
     const vec3 power = totals[0].column[kSourceColumn].rgb;
     vec3 pattern = w * earlier;
     for (int c = 0; c < 3; ++c)
-        pattern[c] += power[c] >= kLeastDivisor ? phase_sum[c] / power[c] : 0.0;
+        pattern[c] += power[c] >= kMinDivisor ? phase_sum[c] / power[c] : 0.0;
     return pattern / (n + w);
 }
 

@@ -10,14 +10,13 @@
 
 struct Drawn {
     uint lumel;
-    float probability;  // p_j; 0: the total power is 0
+    float probability;  // p_j; 0: there is no power
 };
 
 // weight / total, 0 if it or the total is too small to be divided by.
 float share_of(float weight, float total)
 {
-    const float share = total >= kLeastDivisor ? weight / total : 0.0;
-    return share >= kLeastDivisor ? share : 0.0;
+    return min(weight, total) >= kMinDivisor ? weight / total : 0.0;
 }
 
 // drawn ← the lumel at u, 0…1, in the cumulative `weights` of a PyramidLayout.

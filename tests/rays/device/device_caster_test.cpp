@@ -7,6 +7,7 @@
 
 #include "../../jobs/solved.h"
 #include "../../support/compare_hits.h"
+#include "links/trace/link_casters.h"
 #include "rooms.h"
 
 namespace lumel {
@@ -103,6 +104,38 @@ TEST_P(DeviceCaster, LetsPassWhatTheHostLetsPass)
     expect_agreement(support::room_with_curtains());
 }
 
+// Rays onto the corners, edges and diagonals of a plate of many quads.
+TEST_P(DeviceCaster, LetsNoRayBetweenTriangles)
+{
+    if (GetParam().option == Rays::query)
+        GTEST_SKIP() << "Vulkan does not promise that ray queries are watertight; Mesa's are not";
+    constexpr int kSide = 24;
+    constexpr float kStep = 0.375f;  // neighbours have the same corners to the bit
+    Scene scene;
+    std::vector<RaySpan> rays;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const glm::vec3 corner(kStep * float(x), kStep * float(y), 0.0f);
+            support::add_quad(
+                scene,
+                {.corner = corner, .edge_u = {kStep, 0.0f, 0.0f}, .edge_v = {0.0f, kStep, 0.0f}});
+            if (x == 0 || y == 0)
+                continue;
+            for (const glm::vec2& at :
+                 {glm::vec2(0.0f), {0.5f, 0.0f}, {0.0f, 0.5f}, {0.5f, 0.5f}}) {
+                const glm::vec3 on = corner + kStep * glm::vec3(at, 0.0f);
+                rays.push_back(ray_out(on + glm::vec3(0, 0, 2), {0, 0, -1}, 0));
+                const glm::vec3 from(3.1f, 2.7f, 1.9f);
+                rays.push_back(ray_out(from, glm::normalize(on - from), 0));
+            }
+        }
+    const RayScene traced(scene);
+    std::vector<RayHit> hits(rays.size());
+    GetParam().cast(device, traced)->closest(rays, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        EXPECT_NEAR(rays[i].origin.z + hits[i].distance * rays[i].direction.z, 0.0f, 1e-5f) << i;
+}
+
 TEST_P(DeviceCaster, MeetsNothingWhereThereIsNothing)
 {
     const Scene scene;
@@ -131,6 +164,14 @@ TEST_P(DeviceCaster, CastsMoreRaysThanFitIntoItsArrays)
     caster->closest(many, hits);
     for (std::size_t i = 0; i < count; ++i)
         ASSERT_EQ(hits[i].distance, i % 2 == 0 ? 1.0f : RayCaster::kNothing) << i;
+}
+
+TEST(AutomaticRays, AreQueriesOfAGpuThatHasThemElseTheHosts)
+{
+    EXPECT_EQ(automatic_rays({.type = "discrete", .ray_queries = true}), Rays::query);
+    EXPECT_EQ(automatic_rays({.type = "discrete"}), Rays::host);
+    EXPECT_EQ(automatic_rays({.type = "cpu", .ray_queries = true}), Rays::host);
+    EXPECT_EQ(automatic_rays({}), Rays::host);
 }
 
 TEST(RaysOfADeviceWithoutQueries, AreRefusedWithARemedy)
