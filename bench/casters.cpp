@@ -10,9 +10,11 @@
 #include <unistd.h>
 
 #include <fmt/core.h>
-#include <glm/gtc/matrix_inverse.hpp>
 
+#include "atlas/near/world_lumels.h"
+#include "base/core/frame.h"
 #include "base/core/parallel.h"
+#include "base/core/sphere.h"
 #include "base/json/json_file.h"
 #include "bench/modes.h"
 #include "bench/stopwatch.h"
@@ -21,7 +23,6 @@
 #include "rays/device/device_caster.h"
 #include "rays/device/device_caster.tree.comp.h"
 #include "rays/device/flat_tree.h"
-#include "rays/paths/directions.h"
 #include "rays/paths/samples.h"
 
 namespace lumel::bench {
@@ -40,18 +41,13 @@ constexpr float kRounding = 1e-5f;
 /// Rays out of lumels, distributed by the cosine of their angle to the normal.
 std::vector<RaySpan> diffuse_rays(const SolveScene& world)
 {
-    const std::vector<Lumel>& lumels = world.lumels.lumels;
+    const WorldLumels lumels(world.scene, world.rays, world.lumels);
+    const std::size_t count = world.lumels.lumels.size();
     std::vector<RaySpan> rays(kRays);
     for (std::uint32_t i = 0; i < kRays; ++i) {
-        const Lumel& lumel = lumels[std::size_t(i) * lumels.size() / kRays];
-        const glm::mat4& transform = world.scene.instances[lumel.instance].transform;
-        const glm::vec3 normal =
-            glm::normalize(glm::inverseTranspose(glm::mat3(transform)) * lumel.normal);
-        const glm::vec3 at(transform * glm::vec4(lumel.position, 1.0f));
-        const glm::vec2 disc = square_to_disc(PathSamples(1, i).random(0));
-        const float height = std::sqrt(std::max(0.0f, 1.0f - glm::dot(disc, disc)));
-        rays[i] = ray_out(at + world.rays.ray_offset(at, normal) * normal,
-                          turn_to(normal, disc.x, disc.y, height), i);
+        const WorldLumel& from = lumels[std::size_t(i) * count / kRays];
+        rays[i] = ray_out(from.centre + from.ray_offset * from.normal,
+                          frame_about(from.normal) * by_cosine(PathSamples(1, i).random(0)), i);
     }
     return rays;
 }

@@ -7,9 +7,14 @@
 namespace lumel {
 namespace {
 
+Rays chosen(const gpu::DeviceInfo& device, Rays wanted)
+{
+    return wanted == Rays::automatic ? automatic_rays(device) : wanted;
+}
+
 std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene& rays, Rays wanted)
 {
-    switch (wanted == Rays::automatic ? automatic_rays(device.info()) : wanted) {
+    switch (chosen(device.info(), wanted)) {
     case Rays::query:
         return cast_by_queries(device, rays);
     case Rays::tree:
@@ -48,8 +53,8 @@ LinkWork::Casters casters_for(const gpu::Device* device, const RayScene& rays, R
 
 std::uint64_t caster_bytes(const gpu::DeviceInfo& device, const RayScene& rays, Rays wanted)
 {
-    const Rays chosen = wanted == Rays::automatic ? automatic_rays(device) : wanted;
-    return chosen == Rays::query || chosen == Rays::tree ? device_rays_bytes(rays) : 0;
+    const Rays by = chosen(device, wanted);
+    return by == Rays::query || by == Rays::tree ? device_rays_bytes(rays) : 0;
 }
 
 }  // namespace lumel

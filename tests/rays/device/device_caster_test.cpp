@@ -13,11 +13,8 @@
 namespace lumel {
 namespace {
 
-class DeviceCaster : public support::OnDevice,
-                     public testing::WithParamInterface<support::DeviceRays> {
+class DeviceCaster : public support::ByDeviceRays {
 protected:
-    void SetUp() override { need(GetParam()); }
-
     void expect_agreement(const Scene& scene) const;
 };
 

@@ -11,10 +11,8 @@
 namespace lumel {
 namespace {
 
-class LinksByDevice : public support::OnDevice,
-                      public testing::WithParamInterface<support::DeviceRays> {
+class LinksByDevice : public support::ByDeviceRays {
 protected:
-    void SetUp() override { need(GetParam()); }
     SolverOptions links(double error) const
     {
         return {.method = LinksOptions{.rays = GetParam().option}, .target_error = error};

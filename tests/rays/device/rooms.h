@@ -76,4 +76,10 @@ protected:
     gpu::Device device;
 };
 
+/// A test by each way of a device to cast rays.
+class ByDeviceRays : public OnDevice, public testing::WithParamInterface<DeviceRays> {
+protected:
+    void SetUp() override { need(GetParam()); }
+};
+
 }  // namespace lumel::support
