@@ -2,7 +2,10 @@
 
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "base/core/error.h"
+#include "jobs/bake/lamp_maps.h"
 #include "method_options.h"
 #include "option_values.h"
 #include "shared_options.h"
@@ -24,11 +27,39 @@ void add_resume_options(Command& command, BakeOptions& options)
                               between(0.0, kMaxCheckpointSeconds)}});
 }
 
-/// How many links, and whether to store them.
+/// How many links, whether to store them, and lamps that are kept apart.
 struct GivenLinks {
     bool keep = false;
     std::uint32_t rays = 0;  ///< per lumel, 0: not given
+    bool per_lamp = false;
+    std::vector<LampGroup> groups;
 };
+
+LampGroup lamp_group(const std::string& text)
+{
+    const std::size_t equals = text.find('=');
+    if (equals == text.npos || equals == 0 || equals + 1 == text.size())
+        refuse_value(fmt::format("--group: '{}' is not of the form NAME=PATTERN", text));
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+void add_lamp_options(Command& command, GivenLinks& links)
+{
+    command.add(kLightmapGroup,
+                {{"--per-lamp", "",
+                  "Also write a map for each lamp, emissive object, sun and sky, which add up to "
+                  "the lightmap: lamp-NAME.exr and lamps.json, for the sliders of lumel report "
+                  "(only links)",
+                  &links.per_lamp},
+                 {.names = "--group",
+                  .type = "NAME=PATTERN",
+                  .help = "With --per-lamp, keep all lamps whose names fit the pattern as one, such "
+                          "as kitchen='lamp_k*'",
+                  .target = [&links](const std::string& text) {
+                      links.groups.push_back(lamp_group(text));
+                  },
+                  .repeatable = true}});
+}
 
 void add_links_options(Command& command, GivenLinks& links)
 {
@@ -64,6 +95,13 @@ void add_file_options(Command& command, BakeArguments& bake)
 void set_links(const Command& command, const GivenLinks& links, BakeOptions& options)
 {
     options.keep_links = links.keep;
+    const bool per_lamp = links.per_lamp || !links.groups.empty();
+    check_per_lamp(options, per_lamp);
+    if (per_lamp) {
+        auto& kept_apart = std::get<LinksOptions>(options.solver.method);
+        kept_apart.per_lamp = true;
+        kept_apart.groups = links.groups;
+    }
     if (!command.given("--links"))
         return;
     auto* method = std::get_if<LinksOptions>(&options.solver.method);
@@ -95,6 +133,7 @@ Command bake_command()
     add_sides_option(command, options.atlas);
     add_methods(command, *method);
     add_links_options(command, *links);
+    add_lamp_options(command, *links);
     add_stop_options(command, options.solver);
     add_resume_options(command, options);
     add_device_option(command, options.device);

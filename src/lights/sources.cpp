@@ -344,7 +344,14 @@ float LightSources::form_factors(const Source& source, const RayOrigin& start,
 SourceSample LightSources::sample(std::size_t index, const RayOrigin& start,
                                   const glm::vec2& at) const
 {
-    const Source& source = sources_[index];
+    SourceSample sample = sample_of(sources_[index], start, at);
+    sample.source = std::uint32_t(index);
+    return sample;
+}
+
+SourceSample LightSources::sample_of(const Source& source, const RayOrigin& start,
+                                     const glm::vec2& at) const
+{
     switch (source.kind) {
     case Kind::polygons:
         return from_polygons(source, start, at);

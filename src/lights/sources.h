@@ -22,6 +22,7 @@ struct SourceSample {
     glm::vec3 irradiance{0.0f};  ///< estimate [lx] at the surface, cosine included
     /// Total unoccluded irradiance of the source [lx], if known exactly.
     std::optional<glm::vec3> open = {};
+    std::uint32_t source = 0;  ///< index in its LightSources
 };
 
 /// Lights of a scene that count as sources.
@@ -99,6 +100,8 @@ private:
         Box box;                   ///< bounding box [m]
     };
 
+    SourceSample sample_of(const Source& source, const RayOrigin& start,
+                           const glm::vec2& at) const;
     void add_surfaces(const Surfaces& surfaces);
     void add_surface(const Surfaces& surfaces, std::size_t index);
     void add_lights();

@@ -72,6 +72,13 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
             [&](double fraction) { return run.finished && stages.progress(fraction); });
     }
 
+    std::optional<LampLights> per_lamp;
+    if (keeps_lamps_apart(options)) {
+        stages.begin("lamps");
+        auto& solver = dynamic_cast<LinkRadiosity&>(*solution->solver);
+        per_lamp = {solver.lamps()->all, solver.light_of_lamps()};
+    }
+
     const bool stopped = stages.stopped();
     // Without light there is no error.
     const bool lit = is_lit(solution->irradiance);
@@ -89,9 +96,11 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
                           .relightable = solution->relightable.has_value(),
                           .form_factors = solution->form_factors,
                           .lamps = std::move(solution->lamps),
-                          .directional = std::move(directional)};
+                          .directional = std::move(directional),
+                          .per_lamp = std::move(per_lamp)};
     output->outdate(kMatrixFile);
     output->outdate(kLinksFile);
+    outdate_lamps(*output, folder);
     if (!stopped)
         output->outdate(kCheckpointFile);
     if (solution->relightable)

@@ -176,6 +176,10 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const S
     const WrittenLight written =
         write_light(folder, options, prepared, &device, irradiance, solver.error_estimate(),
                     results.directional.coefficients, stages);
+    std::vector<std::string> files_of_lamps;
+    if (results.per_lamp)
+        files_of_lamps =
+            write_lamps(folder, options, prepared, irradiance, *results.per_lamp, stages);
     stages.end();
     device.check_validation();
 
@@ -184,7 +188,8 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const S
     folder.outdate(kPageFile);
     folder.outdate(kProbesFile);
     outdate_other_pages(folder, prepared.atlas.pages);
-    const BakeRecord record = record_of(options, prepared, results, written);
+    BakeRecord record = record_of(options, prepared, results, written);
+    record.files.insert(record.files.end(), files_of_lamps.begin(), files_of_lamps.end());
     Report facts = bake_report(record, prepared, device, solver, results, stages);
     facts.preview = preview_row(written, prepared.scene);
     const Json report = to_json(facts);

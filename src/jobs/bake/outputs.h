@@ -1,12 +1,14 @@
 #pragma once
 // Writes a solved scene to the files of a bake.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "atlas/prepare/solve_scene.h"
 #include "base/images/image_files.h"
 #include "gpu/device.h"
+#include "jobs/bake/lamp_maps.h"
 #include "jobs/solve/bake_options.h"
 #include "jobs/solve/stages.h"
 #include "results/files/folder.h"
@@ -32,6 +34,7 @@ struct Results {
     std::optional<FormFactorRow> form_factors;
     DirectLight lamps;             ///< by sky and lamps
     DirectionalLight directional;  ///< empty if not requested
+    std::optional<LampLights> per_lamp = {};
 };
 
 /// Writes a finished map as NAME.exr [lx], with layers, and NAME.png for display; several pages as

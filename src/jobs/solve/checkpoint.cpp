@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kMagic[] = "lumel checkpoint 2\n";
+constexpr char kMagic[] = "lumel checkpoint 3\n";
 /// Writing takes at most 1 / kRest of the time.
 constexpr double kRest = 20.0;
 
@@ -35,8 +35,12 @@ std::string settings_of(const BakeOptions& options)
     settings["solver"] = solver_settings(options.solver);
     settings["atlas"] = atlas_settings(options.atlas);
     settings["parts"] = int(options.parts);
-    if (const auto* links = std::get_if<LinksOptions>(&options.solver.method))
+    if (const auto* links = std::get_if<LinksOptions>(&options.solver.method)) {
         settings["links"] = links->even_rays;
+        settings["per-lamp"] = links->per_lamp;
+        for (const LampGroup& group : links->groups)
+            settings["groups"].push_back({group.name, group.pattern});
+    }
     return json_text(settings);
 }
 

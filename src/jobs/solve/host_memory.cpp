@@ -45,6 +45,7 @@ struct Sizes {
     std::uint64_t texture_scale = 1;  ///< side of scene-baked.glb's texture relative to the map
     PreviewMemory preview;
     std::uint64_t picture = 0;  ///< bytes
+    std::uint64_t lamps = 0;    ///< kept apart
 };
 
 std::uint64_t bytes_of_scene(const Scene& scene)
@@ -126,15 +127,18 @@ std::uint64_t kept_bytes(const Sizes& sizes, const BakeOptions& options)
 std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool shared)
 {
     const std::uint64_t layers = layers_of(options);
-    const std::uint64_t maps =
-        (2 + layers) * sizes.texels * kOfTexel + (1 + layers) * sizes.lumels * sizeof(glm::vec3);
+    const std::uint64_t maps = (2 + layers) * sizes.texels * kOfTexel +
+                               (1 + layers + 2 * sizes.lamps) * sizes.lumels * sizeof(glm::vec3);
     const std::uint64_t solving =
-        uses_links(options) ? LinkRadiosity::sweep_bytes(sizes.lumels) : 0;
+        uses_links(options) ? std::max(LinkRadiosity::sweep_bytes(sizes.lumels),
+                                       LinkRadiosity::lamp_bytes(sizes.lumels, sizes.lamps))
+                            : 0;
     const std::uint64_t drawing =
         options.preview_width > 0
             ? sizes.preview.host + (shared ? sizes.preview.device + kCompilerBytes : 0)
             : 0;
-    const std::uint64_t writing = sizes.picture + writing_bytes(sizes, layers);
+    const std::uint64_t writing = sizes.picture + writing_bytes(sizes, layers) +
+                                  sizes.lamps * sizes.texels * kOfTexel;
     return std::max(
         {solving, maps + std::max({sizes.finish, drawing, writing}), kept_bytes(sizes, options)});
 }
@@ -147,7 +151,8 @@ void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& optio
                         LumelRowsBuilder::host_bytes(lumels, matrix->transport.patches);
     if (!uses_links(options))
         return;
-    memory.solver = LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels);
+    memory.solver =
+        LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels, sizes.lamps);
     memory.links = bytes_of_links(lumels, options.solver);
     memory.first_links =
         LinkRadiosity::first_bytes(lumels, std::get<LinksOptions>(options.solver.method).even_rays);
@@ -195,6 +200,21 @@ std::uint64_t triangle_count(const Scene& scene)
     return count;
 }
 
+namespace {
+
+/// Lamps kept apart. Throws Error{input} as find_lamps() does.
+std::uint64_t lamp_count(const SolveScene& prepared, const BakeOptions& options)
+{
+    if (!keeps_lamps_apart(options))
+        return 0;
+    const LightSources sources(prepared.scene, prepared.surfaces, prepared.extent());
+    return find_lamps(prepared.scene, prepared.lumels, sources,
+                      std::get<LinksOptions>(options.solver.method).groups)
+        .all.size();
+}
+
+}  // namespace
+
 HostMemory host_memory(const SolveScene& prepared, const BakeOptions& options, bool shared)
 {
     const Atlas& atlas = prepared.atlas;
@@ -204,7 +224,8 @@ HostMemory host_memory(const SolveScene& prepared, const BakeOptions& options, b
                 .texels = side * side,
                 .page_texels = page * page,
                 .document = 2 * bytes_of_file(prepared.scene),
-                .finish = finish_bytes(atlas)};
+                .finish = finish_bytes(atlas),
+                .lamps = lamp_count(prepared, options)};
     for (const Surface& surface : atlas.surfaces)
         sizes.written += surface.texcoord.size() * kWrittenVertexBytes +
                          surface.indices.size() * kWrittenIndexBytes;

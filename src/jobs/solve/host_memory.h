@@ -20,6 +20,11 @@ inline bool uses_links(const BakeOptions& options)
     return std::holds_alternative<LinksOptions>(options.solver.method);
 }
 
+inline bool keeps_lamps_apart(const BakeOptions& options)
+{
+    return uses_links(options) && std::get<LinksOptions>(options.solver.method).per_lamp;
+}
+
 /// Triangles of all instances.
 std::uint64_t triangle_count(const Scene& scene);
 

@@ -59,9 +59,24 @@ constexpr std::uint32_t kLumelPair = 0, kLampChoicePair = 1, kLampPair = 2;
 
 }  // namespace
 
-struct DirectEstimator::Found {
+/// Direct light of a lumel: in two halves, and by cell.
+struct DirectEstimator::OfLumel {
     glm::vec3 half[2] = {glm::vec3(0.0f), glm::vec3(0.0f)};
     OfCells cells{};
+
+    void add(const OfLumel& other)
+    {
+        for (int h = 0; h < 2; ++h)
+            half[h] += other.half[h];
+        for (std::size_t c = 0; c < cells.size(); ++c)
+            cells[c] += other.cells[c];
+    }
+    void make_even() { cells.fill(0.5f * (half[0] + half[1])); }
+};
+
+struct DirectEstimator::Found {
+    OfLumel light;
+    std::vector<OfLumel> of_lamps;
     std::uint32_t seen = 0;
     bool uncertain = false;
     bool exact = true;  ///< unoccluded light of all sources is known exactly
@@ -102,16 +117,22 @@ struct DirectEstimator::Choice {
     float factor;
 };
 
-DirectEstimator::DirectEstimator(const LinkWork& work, std::uint32_t seed, const SubLumels* parts)
+DirectEstimator::DirectEstimator(const LinkWork& work, std::uint32_t seed, const SubLumels* parts,
+                                 const Lamps* lamps)
     : work_(work),
       seed_(seed),
       parts_(parts),
+      of_lamps_(lamps),
+      lamps_(lamps ? lamps->all.size() : 0),
       half_{std::vector<glm::vec3>(work.order.size()), std::vector<glm::vec3>(work.order.size())},
+      lamp_half_{std::vector<glm::vec3>(work.order.size() * lamps_),
+                 std::vector<glm::vec3>(work.order.size() * lamps_)},
       taken_(work.order.size()),
       more_(work.order.size()),
       seen_(work.order.size()),
       uncertain_(work.order.size()),
-      varying_(work.order.size(), kSame),
+      by_cell_{1, std::vector<std::uint32_t>(work.order.size(), kSame), {}},
+      lamps_by_cell_{lamps_, std::vector<std::uint32_t>(lamps ? work.order.size() : 0, kSame), {}},
       blocks_((work.order.size() + kBlock - 1) / kBlock)
 {
 }
@@ -263,9 +284,8 @@ void DirectEstimator::add(std::uint32_t i, RayBatch& wave) const
 void DirectEstimator::take(const Group& group, std::uint32_t i, const RayBatch& wave,
                            Found& found) const
 {
-    const auto part = [&](std::uint32_t cell) {
-        return is_cut(i) ? parts_->part(i, cell) - parts_->first(i) : 0u;
-    };
+    const auto part = [&](std::uint32_t cell) { return part_of(i, cell); };
+    OfLumel light;
     std::array<SourceEstimate, kCells> of_cells;
     std::array<SourceEstimate, kMaxParts> of_parts;
     SourceEstimate of_both;
@@ -277,7 +297,7 @@ void DirectEstimator::take(const Group& group, std::uint32_t i, const RayBatch& 
                 for (SourceEstimate* into :
                      {&sums, &of_both, &of_cells[cell], &of_parts[part(cell)]})
                     into->add(wave.looks.sample(look), wave.looks.transmittance(look));
-        found.half[h] += sums.light();
+        light.half[h] = sums.light();
     }
     found.rays += of_both.free + of_both.hidden;
     found.uncertain = found.uncertain || (of_both.free > 0 && of_both.hidden > 0);
@@ -294,10 +314,59 @@ void DirectEstimator::take(const Group& group, std::uint32_t i, const RayBatch& 
     for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c) {
         const std::uint32_t p = part(c);
         const glm::vec3 mean = of_parts[p].light();
-        glm::vec3 light = of_cells[c].rays > 0 ? of_cells[c].light() : mean;
+        light.cells[c] = of_cells[c].rays > 0 ? of_cells[c].light() : mean;
         for (int k = 0; of_cells[c].rays > 0 && k < 3; ++k)
-            light[k] *= sum[p][k] > 0.0f ? rays[p] * mean[k] / sum[p][k] : 1.0f;
-        found.cells[c] += light;
+            light.cells[c][k] *= sum[p][k] > 0.0f ? rays[p] * mean[k] / sum[p][k] : 1.0f;
+    }
+    found.light.add(light);
+    if (of_lamps_ && group.alone)
+        found.of_lamps[of_lamps_->of_source[group.source]].add(light);
+    else if (of_lamps_)
+        share_out(group, i, wave, light, found);
+}
+
+/// Shares out the light of several sources to their lamps, in proportion to what rays to them
+/// brought: to the cell, else to its sub-lumel.
+void DirectEstimator::share_out(const Group& group, std::uint32_t i, const RayBatch& wave,
+                                const OfLumel& light, Found& found) const
+{
+    struct Brought {
+        OfLumel light;
+        std::array<glm::vec3, kMaxParts> parts{};
+    };
+    std::vector<Brought> of_lamps(lamps_);
+    Brought all;
+    for (std::uint32_t n = 0; n < 2 * group.rays; ++n) {
+        const std::uint32_t look = group.first + n, cell = wave.cells[look];
+        if (cell == kNoCell)
+            continue;
+        const SourceSample& sample = wave.looks.sample(look);
+        const glm::vec3 sent = wave.looks.transmittance(look) * sample.irradiance;
+        for (Brought* into : {&all, &of_lamps[of_lamps_->of_source[sample.source]]}) {
+            into->light.half[n / group.rays] += sent;
+            into->light.cells[cell] += sent;
+            into->parts[part_of(i, cell)] += sent;
+        }
+    }
+    const auto share = [](const glm::vec3& of, const glm::vec3& sum) {
+        glm::vec3 result(0.0f);
+        for (int c = 0; c < 3; ++c)
+            result[c] = sum[c] > 0.0f ? of[c] / sum[c] : 0.0f;
+        return result;
+    };
+    for (std::size_t lamp = 0; lamp < lamps_; ++lamp) {
+        const Brought& own = of_lamps[lamp];
+        OfLumel part;
+        for (int h = 0; h < 2; ++h)
+            part.half[h] = share(own.light.half[h], all.light.half[h]) * light.half[h];
+        for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c) {
+            const bool any = all.light.cells[c] != glm::vec3(0.0f);
+            const std::uint32_t p = part_of(i, c);
+            part.cells[c] = (any ? share(own.light.cells[c], all.light.cells[c])
+                                 : share(own.parts[p], all.parts[p])) *
+                            light.cells[c];
+        }
+        found.of_lamps[lamp].add(part);
     }
 }
 
@@ -306,11 +375,15 @@ void DirectEstimator::take(const RayBatch& wave)
     for (std::size_t k = 0; k < wave.lumels.size(); ++k) {
         const std::uint32_t i = wave.lumels[k];
         Found found;
+        found.of_lamps.resize(lamps_);
         for (std::uint32_t g = wave.groups_before[k]; g < wave.groups_before[k + 1]; ++g)
             take(wave.groups[g], i, wave, found);
         // Cells are used only if all sources have exact unoccluded light, or the lumel is cut.
-        if (more_[i] == 0 && !found.exact && !is_cut(i))
-            found.cells.fill(0.5f * (found.half[0] + found.half[1]));
+        if (more_[i] == 0 && !found.exact && !is_cut(i)) {
+            found.light.make_even();
+            for (OfLumel& lamp : found.of_lamps)
+                lamp.make_even();
+        }
         keep(i, found, blocks_[(wave.first + k) / kBlock]);
     }
 }
@@ -331,30 +404,78 @@ void DirectEstimator::find(const std::vector<std::uint32_t>& lumels, std::size_t
     }
 }
 
+/// True if the light of cells differs significantly.
+bool DirectEstimator::differ(const OfCells& cells)
+{
+    const auto by_light = [](const glm::vec3& one, const glm::vec3& other) {
+        return luminance(one) < luminance(other);
+    };
+    const auto [least, most] = std::minmax_element(cells.begin(), cells.end(), by_light);
+    return luminance(*most) - luminance(*least) > double(kDiffers) * luminance(*most);
+}
+
+/// Keeps light by cell where it varies. Across a cut, cells of other lamps can be equally bright.
+void DirectEstimator::keep_by_cell(std::uint32_t i, const Found& found, float before,
+                                   Block& block) const
+{
+    const auto mixed = [&](const OfCells& cells, const auto& light_before) {
+        OfCells result;
+        for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
+            result[c] = before * light_before(c) + (1.0f - before) * cells[c];
+        return result;
+    };
+    const OfCells cells =
+        mixed(found.light.cells, [&](std::uint32_t c) { return at(i, c); });
+    const bool any = differ(cells);
+    if (any) {
+        block.light.lumel.push_back(i);
+        block.light.cells.push_back(cells);
+    }
+    if (lamps_ == 0 || (!any && !is_cut(i)))
+        return;
+    std::vector<OfCells> of_lamps;
+    for (std::size_t lamp = 0; lamp < lamps_; ++lamp)
+        of_lamps.push_back(mixed(found.of_lamps[lamp].cells,
+                                 [&](std::uint32_t c) { return lamp_at(i, c, lamp); }));
+    if (!any && std::ranges::none_of(of_lamps, differ))
+        return;
+    block.of_lamps.lumel.push_back(i);
+    block.of_lamps.cells.insert(block.of_lamps.cells.end(), of_lamps.begin(), of_lamps.end());
+}
+
 /// Stores the results of lumel i: the mean over its passes of many rays, weighted by rays.
 void DirectEstimator::keep(std::uint32_t i, const Found& found, Block& block)
 {
     const std::uint32_t taken = taken_[i], more = more_[i];
     const float before = taken > 0 ? float(taken) / float(taken + more) : 0.0f;
-    OfCells cells;
-    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
-        cells[c] = before * at(i, c) + (1.0f - before) * found.cells[c];
-    for (int h = 0; h < 2; ++h)
-        half_[h][i] = before * half_[h][i] + (1.0f - before) * found.half[h];
+    keep_by_cell(i, found, before, block);
+    for (int h = 0; h < 2; ++h) {
+        half_[h][i] = before * half_[h][i] + (1.0f - before) * found.light.half[h];
+        for (std::size_t lamp = 0; lamp < lamps_; ++lamp) {
+            glm::vec3& half = lamp_half_[h][i * lamps_ + lamp];
+            half = before * half + (1.0f - before) * found.of_lamps[lamp].half[h];
+        }
+    }
     taken_[i] += more;
     if (first_pass_) {
         uncertain_[i] = found.uncertain;
         seen_[i] = found.seen;
     }
     block.rays += found.rays;
-    const auto by_light = [](const glm::vec3& one, const glm::vec3& other) {
-        return luminance(one) < luminance(other);
+}
+
+bool DirectEstimator::ByCell::fits(std::size_t lumels) const
+{
+    const auto has_cells = [&](std::uint32_t at) {
+        return at == kSame || (at + std::size_t(1)) * kinds <= cells.size();
     };
-    const auto [least, most] = std::minmax_element(cells.begin(), cells.end(), by_light);
-    if (luminance(*most) - luminance(*least) > double(kDiffers) * luminance(*most)) {
-        block.lumel.push_back(i);
-        block.cells.push_back(cells);
-    }
+    return index.size() == lumels && std::ranges::all_of(index, has_cells);
+}
+
+bool DirectEstimator::FoundCells::fits(std::size_t lumels, std::size_t kinds) const
+{
+    return cells.size() == kinds * lumel.size() &&
+           std::ranges::all_of(lumel, [&](std::uint32_t i) { return i < lumels; });
 }
 
 bool DirectEstimator::fits() const
@@ -362,22 +483,22 @@ bool DirectEstimator::fits() const
     const std::size_t count = work_.order.size();
     const auto is_lumel = [&](std::uint32_t i) { return i < count; };
     const auto are_lumels = [&](const Block& block) {
-        return block.cells.size() == block.lumel.size() &&
-               std::ranges::all_of(block.lumel, is_lumel);
+        return block.light.fits(count, 1) && block.of_lamps.fits(count, lamps_);
     };
-    const auto has_cells = [&](std::uint32_t v) { return v == kSame || v < cells_.size(); };
     return half_[0].size() == count && half_[1].size() == count && taken_.size() == count &&
            more_.size() == count && seen_.size() == count && uncertain_.size() == count &&
-           varying_.size() == count && done_ <= blocks_.size() &&
-           std::ranges::all_of(many_, is_lumel) && std::ranges::all_of(varying_, has_cells) &&
+           by_cell_.fits(count) && lamps_by_cell_.fits(lamps_ > 0 ? count : 0) &&
+           done_ <= blocks_.size() && lamp_half_[0].size() == lamps_ * count &&
+           lamp_half_[1].size() == lamps_ * count && std::ranges::all_of(many_, is_lumel) &&
            std::ranges::all_of(blocks_, are_lumels);
 }
 
-std::uint64_t DirectEstimator::bytes(std::size_t lumels, std::size_t varying)
+std::uint64_t DirectEstimator::bytes(std::size_t lumels, std::size_t varying, std::size_t lamps)
 {
     constexpr std::size_t kOfLumel =
         2 * sizeof(glm::vec3) + 5 * sizeof(std::uint32_t) + sizeof(char);
-    return lumels * kOfLumel + varying * sizeof(OfCells);
+    return lumels * (kOfLumel + lamps * 2 * sizeof(glm::vec3)) +
+           varying * (1 + lamps) * sizeof(OfCells);
 }
 
 bool DirectEstimator::step()
@@ -542,38 +663,51 @@ void DirectEstimator::mark_uncertain_hidden()
         }
 }
 
+/// Replaces the cells of lumels of this pass by those that its blocks found. keeps(lumel, its
+/// cells): false if they are not worth it.
+template <class Keeps>
+void DirectEstimator::renew(ByCell& kept, FoundCells Block::*found, const Keeps& keeps) const
+{
+    std::vector<char> again(first_pass_ ? 0 : kept.index.size(), 0);
+    if (!first_pass_)
+        for (const std::uint32_t i : many_)
+            again[i] = 1;
+    ByCell next{kept.kinds, std::vector<std::uint32_t>(kept.index.size(), kSame), {}};
+    const auto keep = [&](std::uint32_t i, const OfCells* cells) {
+        if (!keeps(i, cells))
+            return;
+        next.index[i] = std::uint32_t(next.cells.size() / next.kinds);
+        next.cells.insert(next.cells.end(), cells, cells + next.kinds);
+    };
+    if (!first_pass_)
+        for (std::uint32_t i = 0; i < kept.index.size(); ++i)
+            if (kept.index[i] != kSame && !again[i])
+                keep(i, kept.of(i));
+    for (const Block& block : blocks_) {
+        const FoundCells& of_block = block.*found;
+        for (std::size_t k = 0; k < of_block.lumel.size(); ++k)
+            keep(of_block.lumel[k], &of_block.cells[k * kept.kinds]);
+    }
+    kept = std::move(next);
+}
+
 /// Stores the cells that the blocks of a pass found.
 void DirectEstimator::keep_cells()
 {
     const double mean = mean_of_all();
-    std::vector<char> again(first_pass_ ? 0 : half_[0].size(), 0);
-    if (!first_pass_)
-        for (const std::uint32_t i : many_)
-            again[i] = 1;
-
-    std::vector<OfCells> kept;
-    std::vector<std::uint32_t> index(varying_.size(), kSame);
-    const auto keep = [&](std::uint32_t i, const OfCells& cells) {
+    renew(by_cell_, &Block::light, [&](std::uint32_t i, const OfCells* cells) {
         double most = 0.0;
-        for (const glm::vec3& cell : cells)
+        for (const glm::vec3& cell : *cells)
             most = std::max(most, luminance(cell));
-        if (most <= double(kCounts) * mean && !is_cut(i))
-            return;
-        index[i] = std::uint32_t(kept.size());
-        kept.push_back(cells);
-    };
-    if (!first_pass_)
-        for (std::uint32_t i = 0; i < varying_.size(); ++i)
-            if (varying_[i] != kSame && !again[i])
-                keep(i, cells_[varying_[i]]);
+        return most > double(kCounts) * mean || is_cut(i);
+    });
+    if (lamps_ > 0)
+        renew(lamps_by_cell_, &Block::of_lamps,
+              [&](std::uint32_t i, const OfCells*) { return varies(i) || is_cut(i); });
     for (Block& block : blocks_) {
-        for (std::size_t k = 0; k < block.lumel.size(); ++k)
-            keep(block.lumel[k], block.cells[k]);
         rays_ += block.rays;
         block = {};
     }
-    cells_ = std::move(kept);
-    varying_ = std::move(index);
 }
 
 }  // namespace lumel

@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "lights/lamps.h"
 #include "lights/shadow_rays.h"
 #include "links/direct/link_work.h"
 
@@ -21,11 +22,13 @@ namespace lumel {
 /// half(), mean() and at(). If refine() returns true, call step() again.
 class DirectEstimator {
 public:
-    /// The work must outlive this. parts: sub-lumels, across which no light passes, or null.
-    DirectEstimator(const LinkWork& work, std::uint32_t seed, const SubLumels* parts = nullptr);
+    /// The work must outlive this. parts: sub-lumels, across which no light passes, or null. lamps:
+    /// whose light is kept apart too, by the same rays, or null.
+    DirectEstimator(const LinkWork& work, std::uint32_t seed, const SubLumels* parts = nullptr,
+                    const Lamps* lamps = nullptr);
 
-    /// Memory [bytes]. varying: number of lumels stored per cell.
-    static std::uint64_t bytes(std::size_t lumels, std::size_t varying);
+    /// Memory [bytes]. varying: number of lumels stored per cell. lamps: kept apart.
+    static std::uint64_t bytes(std::size_t lumels, std::size_t varying, std::size_t lamps);
 
     /// Runs part of a pass. Returns true if work is left.
     bool step();
@@ -43,11 +46,30 @@ public:
     /// Direct light of a cell: the lumel's mean unless it varies [lx].
     glm::vec3 at(std::size_t lumel, std::uint32_t cell) const
     {
-        const std::uint32_t index = varying_[lumel];
-        return index == kSame ? mean(lumel) : cells_[index][cell];
+        return varies(lumel) ? by_cell_.of(lumel)[0][cell] : mean(lumel);
+    }
+    /// Mean of both halves [lx] of the light of one lamp; the lamps' sum is mean().
+    glm::vec3 mean_of_lamp(std::size_t lumel, std::size_t lamp) const
+    {
+        const std::size_t at = lumel * lamps_ + lamp;
+        return 0.5f * (lamp_half_[0][at] + lamp_half_[1][at]);
+    }
+    /// Difference of the halves [lx] of the light of one lamp.
+    glm::vec3 lamp_apart(std::size_t lumel, std::size_t lamp) const
+    {
+        const std::size_t at = lumel * lamps_ + lamp;
+        return lamp_half_[0][at] - lamp_half_[1][at];
+    }
+    /// at() of one lamp.
+    glm::vec3 lamp_at(std::size_t lumel, std::uint32_t cell, std::size_t lamp) const
+    {
+        return varies_by_lamp(lumel) ? lamps_by_cell_.of(lumel)[lamp][cell]
+                                     : mean_of_lamp(lumel, lamp);
     }
     /// True if direct light is stored per cell.
-    bool varies(std::size_t lumel) const { return varying_[lumel] != kSame; }
+    bool varies(std::size_t lumel) const { return by_cell_.index[lumel] != kSame; }
+    /// True if the light of lamps is: also where only their sum is even.
+    bool varies_by_lamp(std::size_t lumel) const { return lamps_by_cell_.index[lumel] != kSame; }
     /// Queues looks_around() shadow rays from any point of the scene. size: of the lumel there [m].
     void sample_lights(const RayOrigin& start, float size, std::uint32_t seed,
                        ShadowRays& looks) const;
@@ -61,8 +83,8 @@ public:
     template <class Archive>
     void state(Archive& archive)
     {
-        archive(half_[0], half_[1], taken_, more_, seen_, uncertain_, many_, varying_, cells_,
-                blocks_, done_, first_pass_, rays_);
+        archive(half_[0], half_[1], taken_, more_, seen_, uncertain_, many_, by_cell_, blocks_,
+                done_, first_pass_, rays_, lamp_half_[0], lamp_half_[1], lamps_by_cell_);
     }
     /// True if the state that was read has the right sizes.
     bool fits() const;
@@ -72,6 +94,7 @@ private:
     using OfCells = std::array<glm::vec3, kCells>;
 
     struct Choice;
+    struct OfLumel;
     struct Found;
     /// A source with its own rays, or several that share rays.
     struct RaysTo {
@@ -81,15 +104,40 @@ private:
     };
     struct Group;
     struct RayBatch;
-    struct Block {
+    /// Light by cell of the lumels in which it varies, of one or more kinds of light.
+    struct ByCell {
+        std::size_t kinds;
+        std::vector<std::uint32_t> index;  ///< [N] its place in `cells`, or kSame
+        std::vector<OfCells> cells;        ///< [places][kinds]
+
+        const OfCells* of(std::size_t lumel) const { return &cells[index[lumel] * kinds]; }
+        bool fits(std::size_t lumels) const;
+        template <class Archive>
+        void state(Archive& archive)
+        {
+            archive(index, cells);
+        }
+    };
+    /// The same of some lumels, as a pass finds it.
+    struct FoundCells {
         std::vector<std::uint32_t> lumel;
-        std::vector<OfCells> cells;
+        std::vector<OfCells> cells;  ///< [lumels][kinds]
+
+        bool fits(std::size_t lumels, std::size_t kinds) const;
+        template <class Archive>
+        void state(Archive& archive)
+        {
+            archive(lumel, cells);
+        }
+    };
+    struct Block {
+        FoundCells light, of_lamps;
         std::uint64_t rays = 0;
 
         template <class Archive>
         void state(Archive& archive)
         {
-            archive(lumel, cells, rays);
+            archive(light, of_lamps, rays);
         }
     };
 
@@ -101,30 +149,43 @@ private:
     void add_rays(std::uint32_t lumel, const RaysTo& to, std::uint32_t more, const SeenCells* seen,
                   RayBatch& wave) const;
     bool is_cut(std::uint32_t lumel) const { return parts_ && parts_->is_cut(lumel); }
+    /// Number of a cell's sub-lumel in its lumel.
+    std::uint32_t part_of(std::uint32_t lumel, std::uint32_t cell) const
+    {
+        return is_cut(lumel) ? parts_->part(lumel, cell) - parts_->first(lumel) : 0u;
+    }
     void add(std::uint32_t lumel, RayBatch& wave) const;
     void take(const Group& group, std::uint32_t lumel, const RayBatch& wave, Found& found) const;
+    void share_out(const Group& group, std::uint32_t lumel, const RayBatch& wave,
+                   const OfLumel& light, Found& found) const;
     void take(const RayBatch& wave);
     void find(const std::vector<std::uint32_t>& lumels, std::size_t first_block,
               std::size_t last_block);
+    static bool differ(const OfCells& cells);
+    void keep_by_cell(std::uint32_t lumel, const Found& found, float before, Block& block) const;
     void keep(std::uint32_t lumel, const Found& found, Block& block);
     double mean_of_all() const;
     bool differs(std::size_t lumel, double mean) const;
     std::uint32_t wanted(std::uint32_t lumel, double rays) const;
     void begin_pass();
     void keep_cells();
+    template <class Keeps>
+    void renew(ByCell& kept, FoundCells Block::*found, const Keeps& keeps) const;
     void mark_uncertain_hidden();
 
     const LinkWork& work_;
     std::uint32_t seed_;
     const SubLumels* parts_;
+    const Lamps* of_lamps_;  ///< null: light of lamps is not kept apart
+    const std::size_t lamps_;
     std::vector<glm::vec3> half_[2];
+    std::vector<glm::vec3> lamp_half_[2];  ///< [N][lamps]
     std::vector<std::uint32_t> taken_;    ///< [N] rays of one half per source in later passes
     std::vector<std::uint32_t> more_;     ///< [N] rays that this pass adds
     std::vector<std::uint32_t> seen_;     ///< [N] bit s: a source ≡ s (mod 32) is visible
     std::vector<char> uncertain_;         ///< [N]
     std::vector<std::uint32_t> many_;     ///< lumels of this pass
-    std::vector<std::uint32_t> varying_;  ///< [N] index into cells_, or kSame
-    std::vector<OfCells> cells_;
+    ByCell by_cell_, lamps_by_cell_;
     std::vector<Block> blocks_;
     std::size_t done_ = 0;  ///< blocks of this pass
     bool first_pass_ = true;

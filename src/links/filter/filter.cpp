@@ -51,6 +51,17 @@ bool is_known(const FilterChart& chart, const std::array<const Estimates*, Count
     });
 }
 
+/// [texels] > 0 near lumels whose halves differ.
+std::vector<float> uncertain_in(const FilterChart& chart, const Estimates& one,
+                                const Estimates& other)
+{
+    std::vector<float> differs(chart.lumel.size(), 0.0f);
+    for (std::size_t t = 0; t < differs.size(); ++t)
+        if (const std::uint32_t i = chart.lumel[t]; i != kNoLumel)
+            differs[t] = one[i] != other[i] ? 1.0f : 0.0f;
+    return smoothed(chart, differs, kUncertainReach);
+}
+
 template <std::size_t Count>
 glm::vec3 estimate_of(const FitLight<Count>& light, std::size_t k)
 {
@@ -165,14 +176,14 @@ Mean ChartFilter::indirect(const Solutions& found) const
     Mean mean = plain_mean(found);
     filter<kSolutions>(
         {&found[0], &found[1], &found[2]}, rule_of_indirect(),
-        [&](const FilterChart& chart, const std::vector<FitLight<kSolutions>>& filtered) {
-            for (std::size_t t = 0; t < filtered.size(); ++t) {
+        [&](const FilterChart& chart, const Filtered<kSolutions>& filtered) {
+            for (std::size_t t = 0; t < filtered.light.size(); ++t) {
                 const std::uint32_t i = chart.lumel[t];
                 if (i == kNoLumel)
                     continue;
                 std::array<glm::vec3, kSolutions> light, bend;
                 for (std::size_t k = 0; k < kSolutions; ++k) {
-                    light[k] = estimate_of<kSolutions>(filtered[t], k);
+                    light[k] = estimate_of<kSolutions>(filtered.light[t], k);
                     bend[k] = light[k] - found[k][i];
                 }
                 mean.light[i] = glm::max((light[0] + light[1] + light[2]) / 3.0f, glm::vec3(0.0f));
@@ -227,18 +238,14 @@ Mean ChartFilter::direct(const Estimates& one, const Estimates& other) const
 {
     Mean mean = plain_mean(one, other);
     filter<2>({&one, &other}, rule_of_direct(),
-              [&](const FilterChart& chart, const std::vector<FitLight<2>>& filtered) {
-                  std::vector<float> differs(chart.lumel.size(), 0.0f);
-                  for (std::size_t t = 0; t < differs.size(); ++t)
-                      if (const std::uint32_t i = chart.lumel[t]; i != kNoLumel)
-                          differs[t] = one[i] != other[i] ? 1.0f : 0.0f;
-                  const std::vector<float> uncertain = smoothed(chart, differs, kUncertainReach);
-                  for (std::size_t t = 0; t < filtered.size(); ++t) {
+              [&](const FilterChart& chart, const Filtered<2>& filtered) {
+                  const std::vector<float> uncertain = uncertain_in(chart, one, other);
+                  for (std::size_t t = 0; t < uncertain.size(); ++t) {
                       const std::uint32_t i = chart.lumel[t];
                       if (i == kNoLumel || uncertain[t] == 0.0f)
                           continue;
-                      const glm::vec3 a = estimate_of<2>(filtered[t], 0),
-                                      b = estimate_of<2>(filtered[t], 1);
+                      const glm::vec3 a = estimate_of<2>(filtered.light[t], 0),
+                                      b = estimate_of<2>(filtered.light[t], 1);
                       mean.light[i] = glm::max(0.5f * (a + b), glm::vec3(0.0f));
                       mean.noise[i] = 0.25f * glm::dot(a - b, a - b);
                       mean.wrong[i] = glm::dot(a - one[i], b - other[i]);
@@ -250,6 +257,49 @@ Mean ChartFilter::direct(const Estimates& one, const Estimates& other) const
                   }
               });
     return mean;
+}
+
+namespace {
+
+/// Filters parts of a chart's light, where is_filtered(texel).
+template <class IsFiltered>
+void filter_parts(const FilterChart& chart, const PyramidGains& gains, std::span<Estimates> parts,
+                  const IsFiltered& is_filtered)
+{
+    for (std::size_t first = 0; first < parts.size(); first += kFilteredTogether) {
+        const std::size_t count = std::min(kFilteredTogether, parts.size() - first);
+        std::array<const Estimates*, kFilteredTogether> found;
+        for (std::size_t k = 0; k < found.size(); ++k)
+            found[k] = &parts[first + std::min(k, count - 1)];
+        const std::vector<FitLight<kFilteredTogether>> filtered =
+            filter_chart_by(gains, chart, found);
+        for (std::size_t t = 0; t < filtered.size(); ++t)
+            if (const std::uint32_t i = chart.lumel[t]; i != kNoLumel && is_filtered(t))
+                for (std::size_t k = 0; k < count; ++k)
+                    parts[first + k][i] = estimate_of<kFilteredTogether>(filtered[t], k);
+    }
+}
+
+}  // namespace
+
+void ChartFilter::indirect_parts(const Solutions& found, std::span<Estimates> parts) const
+{
+    filter<kSolutions>({&found[0], &found[1], &found[2]}, rule_of_indirect(),
+                       [&](const FilterChart& chart, const Filtered<kSolutions>& filtered) {
+                           filter_parts(chart, filtered.gains, parts,
+                                        [](std::size_t) { return true; });
+                       });
+}
+
+void ChartFilter::direct_parts(const Estimates& one, const Estimates& other,
+                               std::span<Estimates> parts) const
+{
+    filter<2>({&one, &other}, rule_of_direct(),
+              [&](const FilterChart& chart, const Filtered<2>& filtered) {
+                  const std::vector<float> uncertain = uncertain_in(chart, one, other);
+                  filter_parts(chart, filtered.gains, parts,
+                               [&](std::size_t t) { return uncertain[t] != 0.0f; });
+              });
 }
 
 }  // namespace lumel

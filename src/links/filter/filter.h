@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "links/direct/link_work.h"
@@ -40,6 +41,12 @@ public:
     /// Filtered mean of two halves of direct light. Lumels far from any whose halves differ keep
     /// their light: it is exact.
     Mean direct(const Estimates& one, const Estimates& other) const;
+
+    /// Filters parts of the light of `indirect` and of `direct`, such as that of single lamps [N],
+    /// in place and with the same gains, so that they add up to the filtered light.
+    void indirect_parts(const Solutions& found, std::span<Estimates> parts) const;
+    void direct_parts(const Estimates& one, const Estimates& other,
+                      std::span<Estimates> parts) const;
 
 private:
     std::uint8_t find_steps(std::size_t lumel, const std::vector<float>& nearest) const;

@@ -222,14 +222,18 @@ PyramidRule rule_of_direct()
             .has_local_noise = true};
 }
 
-template <std::size_t Count>
-std::vector<FitLight<Count>> filter_chart(const FilterChart& chart,
-                                          const std::array<const Estimates*, Count>& found,
-                                          const PyramidRule& rule)
+namespace {
+
+/// Filtered estimates: the fits of `levels` levels and their details, by gains. gains_of(l, level,
+/// fitted, detail): those of level l at each texel.
+template <std::size_t Count, class GainsOf>
+std::vector<FitLight<Count>> join_levels(const FilterChart& chart,
+                                         const std::array<const Estimates*, Count>& found,
+                                         std::size_t levels, const GainsOf& gains_of)
 {
     FitLevel<Count> level = finest_level<Count>(chart, found);
     std::vector<FitLight<Count>> finer = level.light, result(finer.size(), FitLight<Count>{});
-    for (std::size_t l = 0; l < rule.caution.size(); ++l) {
+    for (std::size_t l = 0; l < levels; ++l) {
         if (l > 0)
             level = coarser_level(level);
         std::vector<FitLight<Count>> fitted = fitted_light(chart, level, finer);
@@ -237,15 +241,10 @@ std::vector<FitLight<Count>> filter_chart(const FilterChart& chart,
             for (std::size_t c = 0; c < finer[t].size(); ++c)
                 finer[t][c] -= fitted[t][c];
         const std::vector<FitLight<Count>>& detail = finer;
-        const std::vector<float> gains =
-            gains_of(chart, level, fitted, detail, rule, rule.caution[l]);
-        for (int y = 0; y < chart.height; ++y)
-            for (int x = 0; x < chart.width; ++x) {
-                const std::size_t t = chart.at(x, y);
-                const float gain = gain_at(level, gains, x, y);
-                for (std::size_t c = 0; c < result[t].size(); ++c)
-                    result[t][c] += gain * detail[t][c];
-            }
+        const std::vector<float>& gains = gains_of(l, level, fitted, detail);
+        for (std::size_t t = 0; t < result.size(); ++t)
+            for (std::size_t c = 0; c < result[t].size(); ++c)
+                result[t][c] += gains[t] * detail[t][c];
         finer = std::move(fitted);
     }
     for (std::size_t t = 0; t < finer.size(); ++t)
@@ -254,9 +253,44 @@ std::vector<FitLight<Count>> filter_chart(const FilterChart& chart,
     return result;
 }
 
-template std::vector<FitLight<2>>
-filter_chart<2>(const FilterChart&, const std::array<const Estimates*, 2>&, const PyramidRule&);
-template std::vector<FitLight<3>>
-filter_chart<3>(const FilterChart&, const std::array<const Estimates*, 3>&, const PyramidRule&);
+}  // namespace
+
+template <std::size_t Count>
+Filtered<Count> filter_chart(const FilterChart& chart,
+                             const std::array<const Estimates*, Count>& found,
+                             const PyramidRule& rule)
+{
+    PyramidGains used(rule.caution.size(), std::vector<float>(chart.lumel.size(), 0.0f));
+    const auto find_gains =
+        [&](std::size_t l, const FitLevel<Count>& level,
+            const std::vector<FitLight<Count>>& fitted,
+            const std::vector<FitLight<Count>>& detail) -> const std::vector<float>& {
+        const std::vector<float> gains =
+            gains_of(chart, level, fitted, detail, rule, rule.caution[l]);
+        for (int y = 0; y < chart.height; ++y)
+            for (int x = 0; x < chart.width; ++x)
+                used[l][chart.at(x, y)] = gain_at(level, gains, x, y);
+        return used[l];
+    };
+    std::vector<FitLight<Count>> light =
+        join_levels<Count>(chart, found, rule.caution.size(), find_gains);
+    return {std::move(light), std::move(used)};
+}
+
+std::vector<FitLight<kFilteredTogether>>
+filter_chart_by(const PyramidGains& gains, const FilterChart& chart,
+                const std::array<const Estimates*, kFilteredTogether>& found)
+{
+    return join_levels<kFilteredTogether>(
+        chart, found, gains.size(),
+        [&](std::size_t l, const auto&, const auto&, const auto&) -> const std::vector<float>& {
+            return gains[l];
+        });
+}
+
+template Filtered<2> filter_chart<2>(const FilterChart&, const std::array<const Estimates*, 2>&,
+                                     const PyramidRule&);
+template Filtered<3> filter_chart<3>(const FilterChart&, const std::array<const Estimates*, 3>&,
+                                     const PyramidRule&);
 
 }  // namespace lumel

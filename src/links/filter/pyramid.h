@@ -35,6 +35,15 @@ struct PyramidRule {
 PyramidRule rule_of_indirect();
 PyramidRule rule_of_direct();
 
+/// [levels][texels] β of filter_chart.
+using PyramidGains = std::vector<std::vector<float>>;
+
+template <std::size_t Count>
+struct Filtered {
+    std::vector<FitLight<Count>> light;  ///< [texels]
+    PyramidGains gains;
+};
+
 /// Filtered estimates at each texel of the chart. With E_0 the light of lumels and E_l the fits of
 /// level l, and details d_l = E_{l-1} - E_l: E_n + Σ β_l d_l, with gains
 ///
@@ -46,8 +55,15 @@ PyramidRule rule_of_direct();
 /// of direct light over the next cells only: an empirical Wiener filter. Of indirect light β is at
 /// least that of the next cells alone, with a caution of 3. All estimates have the same gains.
 template <std::size_t Count>
-std::vector<FitLight<Count>> filter_chart(const FilterChart& chart,
-                                          const std::array<const Estimates*, Count>& found,
-                                          const PyramidRule& rule);
+Filtered<Count> filter_chart(const FilterChart& chart,
+                             const std::array<const Estimates*, Count>& found,
+                             const PyramidRule& rule);
+
+/// Other light, of up to this many kinds at once, filtered by the gains that filter_chart found:
+/// parts of a light so filtered add up to the filtered light.
+inline constexpr std::size_t kFilteredTogether = 4;
+std::vector<FitLight<kFilteredTogether>>
+filter_chart_by(const PyramidGains& gains, const FilterChart& chart,
+                const std::array<const Estimates*, kFilteredTogether>& found);
 
 }  // namespace lumel

@@ -7,8 +7,22 @@
 namespace lumel {
 namespace {
 
+bool fits(std::span<const NearShare> shares, std::size_t near, const LinkNumbers& numbers,
+          std::size_t lamps)
+{
+    std::size_t first = 0;
+    for (const NearShare& share : shares) {
+        const bool is_of_all = share.lamp == NearShare::kEveryLamp;
+        if (share.near < first || share.near >= near || (!is_of_all && share.lamp >= lamps) ||
+            (is_of_all && !numbers.is_part(share.at.number())))
+            return false;
+        first = share.near;
+    }
+    return true;
+}
+
 bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const SubLumels& parts,
-          const LinkNumbers& numbers)
+          const LinkNumbers& numbers, std::size_t lamps)
 {
     if (block.rays.size() != lumels.size())
         return false;
@@ -30,7 +44,7 @@ bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const S
     }
     for (const LinkEnd end : block.ends)
         near += end.number() == LinkNumbers::kNear ? 1 : 0;
-    return near == block.near.size() &&
+    return near == block.near.size() && fits(block.shares, near, numbers, lamps) &&
            (block.probabilities.empty() || block.probabilities.size() == slots) &&
            std::ranges::find(block.probabilities, 0) == block.probabilities.end() &&
            std::all_of(block.ends.begin(), block.ends.end(), is_known) &&
@@ -57,20 +71,21 @@ std::size_t LinkTable::bytes() const
             bytes += block.rays.size() * sizeof(std::uint16_t) +
                      block.ends.size() * sizeof(LinkEnd) + block.from.size() +
                      block.probabilities.size() * sizeof(std::uint16_t) +
-                     block.near.size() * sizeof(NearLink);
+                     block.near.size() * sizeof(NearLink) +
+                     block.shares.size() * sizeof(NearShare);
     return bytes;
 }
 
 bool LinkTable::fits(const std::vector<std::uint32_t>& order, const SubLumels& parts,
-                     const LinkNumbers& numbers, std::size_t traced) const
+                     const LinkNumbers& numbers, std::size_t traced, std::size_t lamps) const
 {
     const std::size_t blocks = (order.size() + kLinkBlock - 1) / kLinkBlock;
     const auto block_fits = [&](const LinkBlock& block, std::size_t b, bool is_traced) {
         const std::size_t first = b * kLinkBlock;
         const auto lumels =
             std::span(order).subspan(first, std::min(kLinkBlock, order.size() - first));
-        return is_traced ? lumel::fits(block, lumels, parts, numbers)
-                         : lumel::fits(block, {}, parts, numbers);
+        return is_traced ? lumel::fits(block, lumels, parts, numbers, lamps)
+                         : lumel::fits(block, {}, parts, numbers, lamps);
     };
     for (std::size_t r = 0; r < rounds.size(); ++r) {
         if (rounds[r].size() != blocks)

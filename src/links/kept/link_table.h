@@ -82,12 +82,23 @@ struct NearLink {
     glm::vec3 light;       ///< gathered on the way and at the end, without further bounces [lx]
 };
 
+/// A part of NearLink::light, kept where the light of lamps is kept apart.
+struct NearShare {
+    static constexpr std::uint32_t kEveryLamp = ~0u;
+
+    std::uint32_t near;  ///< index of the NearLink in its block
+    std::uint32_t lamp;  ///< whose `light` it is; kEveryLamp: light is the factor on that of `at`
+    LinkEnd at;
+    glm::vec3 light;
+};
+
 /// Links of up to kLinkBlock lumels. A slot is a ray.
 struct LinkBlock {
     std::vector<std::uint16_t> rays;  ///< [lumels]
     std::vector<LinkEnd> ends;        ///< [slots]
     std::vector<std::uint8_t> from;   ///< cells that the rays of cut lumels leave, in order
     std::vector<NearLink> near;       ///< by slot
+    std::vector<NearShare> shares;    ///< by near link; empty unless lamps are kept apart
     /// [slots] Of the directions, see RayGuide; empty: all are equal.
     std::vector<std::uint16_t> probabilities;
     std::uint64_t traced = 0;  ///< rays; the ends of others were known
@@ -95,7 +106,7 @@ struct LinkBlock {
     template <class Archive>
     void state(Archive& archive)
     {
-        archive(rays, ends, from, near, probabilities, traced);
+        archive(rays, ends, from, near, shares, probabilities, traced);
     }
 };
 
@@ -108,6 +119,8 @@ struct LinkRow {
     std::span<const LinkEnd> ends;
     const std::uint8_t* from;  ///< [ends] cells, or null for lumels that are not cut
     std::span<const NearLink> near;
+    std::span<const NearShare> shares;  ///< of these
+    std::uint32_t first_near;           ///< index of the first in its block
     const std::uint16_t* probabilities;  ///< [ends] or null: all are equal
 
     /// Weight of ray k, as which its light counts; 1 on average.
@@ -131,7 +144,7 @@ public:
     LinkRow next(bool is_cut)
     {
         const std::size_t rays = block_->rays[lumel_++];
-        LinkRow row{slot_, {block_->ends.data() + slot_, rays}, nullptr, {}, nullptr};
+        LinkRow row{slot_, {block_->ends.data() + slot_, rays}, nullptr, {}, {}, near_, nullptr};
         if (!block_->probabilities.empty())
             row.probabilities = block_->probabilities.data() + slot_;
         if (is_cut) {
@@ -143,12 +156,16 @@ public:
         while (near_ < block_->near.size() && block_->near[near_].slot < slot_)
             ++near_;
         row.near = {block_->near.data() + first, near_ - first};
+        const std::uint32_t first_share = share_;
+        while (share_ < block_->shares.size() && block_->shares[share_].near < near_)
+            ++share_;
+        row.shares = {block_->shares.data() + first_share, share_ - first_share};
         return row;
     }
 
 private:
     const LinkBlock* block_;
-    std::uint32_t lumel_ = 0, slot_ = 0, from_ = 0, near_ = 0;
+    std::uint32_t lumel_ = 0, slot_ = 0, from_ = 0, near_ = 0, share_ = 0;
 };
 
 /// Links of one of several independent solutions.
@@ -161,9 +178,9 @@ struct LinkTable {
     /// Memory of links [bytes].
     std::size_t bytes() const;
     /// True if all indices are valid: of lumels in this order, of sub-lumels and of numbers.
-    /// traced: blocks of the last round that are not empty.
+    /// traced: blocks of the last round that are not empty. lamps: kept apart.
     bool fits(const std::vector<std::uint32_t>& order, const SubLumels& parts,
-              const LinkNumbers& numbers, std::size_t traced) const;
+              const LinkNumbers& numbers, std::size_t traced, std::size_t lamps) const;
 
     template <class Archive>
     void state(Archive& archive)

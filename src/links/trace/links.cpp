@@ -83,7 +83,11 @@ LinkRadiosity::LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters,
       most_shots_(limits.max_shots),
       most_bytes_(limits.max_bytes),
       parts_wanted_(parts),
-      work_(scene, std::move(casters), options.rule, order_in_space)
+      work_(scene, std::move(casters), options.rule, order_in_space),
+      lamps_(options.per_lamp
+                 ? std::optional(
+                       find_lamps(scene.scene, scene.lumels, work_.sources, options.groups))
+                 : std::nullopt)
 {
 }
 
@@ -136,7 +140,7 @@ void LinkRadiosity::state(Archive& archive)
             traced_, mean_.light, mean_.noise, mean_.wrong, mean_.apart, mean_.bend, mean_light_,
             adapted_, all_, dark_, eye_, refined_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
-        archive(*links_[k], sources_[k].rays, received_[k]);
+        archive(*links_[k], sources_[k].rays, received_[k], swept_sky_[k]);
 }
 
 void LinkRadiosity::write_state(StateWriter& writer)
@@ -183,7 +187,8 @@ bool LinkRadiosity::is_consistent() const
                 (stage_ != Stage::solve || traced_ == tracer_->blocks());
     for (std::size_t k = 0; k < kSolutions; ++k)
         fits = fits && links_[k]->rounds.size() == round_ + (is_tracing ? 1 : 0) &&
-               links_[k]->fits(work_.order, *parts_, *numbers_, traced) &&
+               links_[k]->fits(work_.order, *parts_, *numbers_, traced, lamp_count()) &&
+               is(swept_sky_[k].size(), parts) &&
                received_[k].size() >= (mean_.light.empty() ? 0 : parts) &&
                is(received_[k].size(), parts) &&
                sources_[k].rays.size() == (mean_.light.empty() ? 0 : parts);
@@ -214,8 +219,8 @@ void LinkRadiosity::cut()
 /// Prepares direct light and links of the present sources.
 void LinkRadiosity::find_light()
 {
-    direct_.emplace(work_, PathSamples::hash(options_.seed, kDirectStream), &*parts_);
-    tracer_.emplace(work_, *parts_, *numbers_, *direct_, options_.seed);
+    direct_.emplace(work_, PathSamples::hash(options_.seed, kDirectStream), &*parts_, lamps());
+    tracer_.emplace(work_, *parts_, *numbers_, *direct_, options_.seed, lamps());
     for (std::optional<LinkTable>& links : links_)
         links.emplace(parts_->count());
     sealed_.emplace(work_, *parts_, *numbers_);
@@ -268,6 +273,8 @@ void LinkRadiosity::solve()
         sources_[k] = find_source_term(work_, *parts_, *numbers_, reflected, *links_[k]);
         solver_->solve(*links_[k], sources_[k], sweep_residual(), received_[k]);
         sources_[k].light = std::vector<glm::vec4>();  // frees it
+        if (lamps_)
+            swept_sky_[k] = links_[k]->sky;
         balance(k);
     }
 }
@@ -370,8 +377,8 @@ const ChartFilter* LinkRadiosity::filter()
     return &*filter_;
 }
 
-/// Averages the solutions.
-void LinkRadiosity::combine()
+/// brought() of all lumels.
+Solutions LinkRadiosity::brought_light() const
 {
     Solutions found;
     for (std::size_t k = 0; k < kSolutions; ++k) {
@@ -379,6 +386,13 @@ void LinkRadiosity::combine()
         for (std::size_t i = 0; i < found[k].size(); ++i)
             found[k][i] = brought(i, k);
     }
+    return found;
+}
+
+/// Averages the solutions.
+void LinkRadiosity::combine()
+{
+    const Solutions found = brought_light();
     mean_ = filter() ? filter()->indirect(found) : plain_mean(found);
 }
 

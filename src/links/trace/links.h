@@ -52,10 +52,14 @@ public:
     static std::uint64_t likely_bytes(std::size_t lumels, std::uint64_t shots);
 
     /// Host memory except links, for the lifetime of the solver [bytes].
-    static std::uint64_t host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels);
+    static std::uint64_t host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels,
+                                    std::size_t lamps);
 
     /// Temporary host memory of a sweep or of the filter, whichever is larger [bytes].
     static std::uint64_t sweep_bytes(std::size_t lumels);
+
+    /// Host memory of light_of_lamps() and its result [bytes].
+    static std::uint64_t lamp_bytes(std::size_t lumels, std::size_t lamps);
 
     /// `shots` are rays per lumel.
     void step() override;
@@ -83,6 +87,16 @@ public:
     /// Starts again after lamps, emission or sky of the scene have changed: keeps what geometry
     /// alone determines, and the links of use(). The light is that of a new solver, bit for bit.
     void relight();
+    /// Light of one lamp.
+    struct LampLight {
+        std::vector<glm::vec3> irradiance;  ///< [N] [lx]
+        double error = 0.0;                 ///< estimated, relative to its own light
+    };
+    /// Lamps that are kept apart, or null.
+    const Lamps* lamps() const { return lamps_ ? &*lamps_ : nullptr; }
+    /// The light of each lamp, whose sum is irradiance(). Ends the solution: a round in progress is
+    /// dropped. Call it once.
+    std::vector<LampLight> light_of_lamps();
     /// Links to store for a later run, after a round has ended. hash: Scene::hash.
     StoredLinks kept(const std::string& hash) const;
     /// Rays that lumels have sent, without the known ones.
@@ -121,6 +135,7 @@ private:
     template <class Visit>
     void for_each_block(const Visit& visit) const;
     bool is_consistent() const;
+    std::size_t lamp_count() const { return lamps_ ? lamps_->all.size() : 0; }
     void cut();
     void find_light();
     void trace();
@@ -174,7 +189,14 @@ private:
     glm::vec3 brought(std::size_t lumel, std::size_t solution) const;
     glm::vec3 arrived(std::size_t lumel) const;
     const ChartFilter* filter();
+    Solutions brought_light() const;
     void combine();
+    void drop_round_in_progress();
+    struct LampSolutions;
+    LampSolutions solve_lamps(const LampsReflected& reflected);
+    void add_indirect_lamps(std::vector<LampLight>& lamps, std::vector<double>& squares);
+    void add_direct_lamps(std::vector<LampLight>& lamps, std::vector<double>& squares);
+    void make_sum_exact(std::vector<LampLight>& lamps) const;
     void estimate();
     Errors estimate_for_eye();
 
@@ -188,6 +210,7 @@ private:
     Then then_ = Then::add;
     LinkChanges changes_;                  ///< since the links were stored
     std::vector<std::size_t> first_rays_;  ///< of the stored round, see first_rays()
+    const std::optional<Lamps> lamps_;
     std::optional<SubLumels> parts_;
     std::optional<LinkNumbers> numbers_;
     std::optional<DirectEstimator> direct_;
@@ -199,6 +222,8 @@ private:
     std::array<std::optional<LinkTable>, kSolutions> links_;
     std::array<SourceTerm, kSolutions> sources_;  ///< of the last sweeps, without light
     std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] without direct light
+    /// [P] LinkTable::sky at the last sweeps; empty unless lamps are kept apart.
+    std::array<std::vector<glm::vec3>, kSolutions> swept_sky_;
     Mean mean_;                                                ///< filtered mean of solutions
     Mean direct_mean_;                                         ///< filtered mean of direct light
     Stage stage_ = Stage::begin;

@@ -2,8 +2,10 @@
 // Options of the default method.
 
 #include <cstdint>
+#include <vector>
 
 #include "atlas/lumels/sample_rule.h"
+#include "lights/lamps.h"
 
 namespace lumel {
 
@@ -28,6 +30,8 @@ struct LinksOptions {
     /// Rays per lumel, in all solutions: traced evenly, in one round, and no more. 0: as many as
     /// the target error requires.
     std::uint32_t even_rays = 0;
+    bool per_lamp = false;          ///< keeps the light of lamps apart
+    std::vector<LampGroup> groups;  ///< of lamps that are kept as one
 };
 
 }  // namespace lumel

@@ -46,7 +46,8 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
                           rounds * kSolutions * kRowBytes));
 }
 
-std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels)
+std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels,
+                                        std::size_t lamps)
 {
     constexpr std::size_t kOfSources = sizeof(glm::vec3) + sizeof(float);
     constexpr std::size_t kOfMean = 2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 2 * sizeof(float);
@@ -59,7 +60,7 @@ std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, 
     const auto varying = std::size_t(kVarying * double(lumels));
     return lumels * (of_lumels + of_parts) + pieces * (sizeof(Piece) + sizeof(Facet)) +
            Cells::bytes(lumels) + SubLumels::bytes(lumels, lumels) +
-           DirectEstimator::bytes(lumels, varying) + NearLumels::bytes(texels) +
+           DirectEstimator::bytes(lumels, varying, lamps) + NearLumels::bytes(texels) +
            ChartFilter::bytes(lumels, texels);
 }
 
@@ -69,6 +70,15 @@ std::uint64_t LinkRadiosity::sweep_bytes(std::size_t lumels)
     const std::uint64_t mean = lumels * (kSolutions * sizeof(glm::vec3) + sizeof(float)) +
                                ChartFilter::working_bytes(lumels);
     return std::max(sweep, mean);
+}
+
+std::uint64_t LinkRadiosity::lamp_bytes(std::size_t lumels, std::size_t lamps)
+{
+    if (lamps == 0)
+        return 0;
+    // Direct light and source term, sweeps, what sub-lumels receive, and the three solutions.
+    constexpr std::size_t kOfLane = 4 * sizeof(glm::vec4) + (1 + kSolutions) * sizeof(glm::vec3);
+    return lumels * (kLampLanes * kOfLane + lamps * 2 * sizeof(glm::vec3));
 }
 
 /// Further rays per lumel and solution that fit in memory.

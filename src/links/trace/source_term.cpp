@@ -75,11 +75,93 @@ glm::vec3 ReflectedLight::of_cell(LinkEnd end) const
     return work_.lumels()[lumel].albedo * direct_.at(lumel, end.cell());
 }
 
-SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
-                            const LinkNumbers& numbers, const ReflectedLight& reflected,
-                            const LinkTable& links)
+LampsReflected::LampsReflected(const LinkWork& work, const SubLumels& parts,
+                               const LinkNumbers& numbers, const DirectEstimator& direct,
+                               const Lamps& lamps, std::size_t first)
+    : work_(work),
+      parts_(parts),
+      numbers_(numbers),
+      direct_(direct),
+      lamps_(lamps),
+      first_(first),
+      count_(std::min(kLampLanes, lamps.all.size() - first)),
+      of_lumel_(work.lumels().size(), LaneLight<kLampLanes>{})
 {
-    SourceTerm sum{std::vector<glm::vec4>(parts.count(), glm::vec4(0.0f)),
+    parallel_for(of_lumel_.size(), kSourcesPerTask, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i)
+            for (std::size_t lane = 0; lane < count_; ++lane)
+                of_lumel_[i][lane] = glm::vec4(
+                    work.lumels()[i].albedo * direct.mean_of_lamp(i, first + lane), 0.0f);
+    });
+}
+
+LaneLight<kLampLanes> LampsReflected::at(LinkEnd end) const
+{
+    if (!numbers_.is_part(end.number()))
+        return {};
+    const std::uint32_t lumel = parts_.lumel(numbers_.part(end.number()));
+    if (!direct_.varies_by_lamp(lumel))
+        return of_lumel_[lumel];
+    LaneLight<kLampLanes> light{};
+    for (std::size_t lane = 0; lane < count_; ++lane)
+        light[lane] = glm::vec4(work_.lumels()[lumel].albedo *
+                                    direct_.lamp_at(lumel, end.cell(), first_ + lane),
+                                0.0f);
+    return light;
+}
+
+LaneLight<kLampLanes> LampsReflected::near(std::span<const NearShare> shares,
+                                           std::uint32_t index) const
+{
+    LaneLight<kLampLanes> sum{};
+    for (const NearShare& share : shares) {
+        if (share.near != index)
+            continue;
+        if (share.lamp == NearShare::kEveryLamp) {
+            const LaneLight<kLampLanes> light = at(share.at);
+            for (std::size_t lane = 0; lane < count_; ++lane)
+                sum[lane] += glm::vec4(share.light, 0.0f) * light[lane];
+        } else if (has(share.lamp)) {
+            sum[share.lamp - first_] += glm::vec4(share.light, 0.0f);
+        }
+    }
+    return sum;
+}
+
+LaneLight<kLampLanes> LampsReflected::of_sky(const glm::vec3& light) const
+{
+    LaneLight<kLampLanes> lanes{};
+    if (has(lamps_.of_dim_sky))
+        lanes[lamps_.of_dim_sky - first_] = glm::vec4(light, 0.0f);
+    return lanes;
+}
+
+namespace {
+
+/// Light of all sources together, as LampsReflected gives that of lamps.
+struct AllReflected {
+    const ReflectedLight& reflected;
+
+    LaneLight<1> at(LinkEnd end) const { return {glm::vec4(reflected.at(end), 0.0f)}; }
+    LaneLight<1> of_sky(const glm::vec3& light) const { return {glm::vec4(light, 0.0f)}; }
+};
+
+LaneLight<1> near_light(const AllReflected&, const LinkRow&, const NearLink& near)
+{
+    return {glm::vec4(near.light, 0.0f)};
+}
+
+LaneLight<kLampLanes> near_light(const LampsReflected& reflected, const LinkRow& row,
+                                 const NearLink& near)
+{
+    return reflected.near(row.shares, row.first_near + std::uint32_t(&near - row.near.data()));
+}
+
+template <std::size_t Lanes, class Reflected>
+SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
+                         const Reflected& reflected, const LinkTable& links)
+{
+    SourceTerm sum{std::vector<glm::vec4>(parts.count() * Lanes, glm::vec4(0.0f)),
                    std::vector<float>(parts.count(), 0.0f)};
     const std::vector<char> unknown = unknown_parts(work, parts, numbers, links);
     std::vector<char> loses(work.order.size(), 0);
@@ -95,13 +177,10 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
             const std::uint32_t leaves = row.leaves(parts, i, k);
             const float weight = row.weight(k);
             LinkEnd end = row.ends[k];
-            glm::vec3 light;
-            if (end.number() == LinkNumbers::kNear) {
-                end = near->end;
-                light = near++->light;
-            } else {
-                light = reflected.at(end);
-            }
+            const NearLink* const is_near =
+                end.number() == LinkNumbers::kNear ? &*near++ : nullptr;
+            if (is_near)
+                end = is_near->end;
             if (end.number() == numbers.hidden() ||
                 (numbers.is_part(end.number()) && unknown[numbers.part(end.number())])) {
                 counts[leaves].is_all = false;
@@ -115,17 +194,39 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
             }
             counts[leaves].rays += 1.0f;
             counts[leaves].weights += weight;
-            sum.light[first + leaves] += glm::vec4(weight * light, 0.0f);
+            const LaneLight<Lanes> light =
+                is_near ? near_light(reflected, row, *is_near) : reflected.at(end);
+            for (std::size_t lane = 0; lane < Lanes; ++lane)
+                sum.light[(first + leaves) * Lanes + lane] += weight * light[lane];
         }
         for (std::uint32_t p = first; p < parts.end(i); ++p) {
             const Count& count = counts[p - first];
             sum.rays[p] += count.is_all ? count.rays : count.weights;
         }
     });
-    for (std::size_t p = 0; p < sum.light.size(); ++p)
-        sum.light[p] += glm::vec4(links.sky[p], 0.0f);
+    for (std::size_t p = 0; p < parts.count(); ++p) {
+        const LaneLight<Lanes> sky = reflected.of_sky(links.sky[p]);
+        for (std::size_t lane = 0; lane < Lanes; ++lane)
+            sum.light[p * Lanes + lane] += sky[lane];
+    }
     sum.is_closed = std::none_of(loses.begin(), loses.end(), [](char one) { return one != 0; });
     return sum;
+}
+
+}  // namespace
+
+SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
+                            const LinkNumbers& numbers, const ReflectedLight& reflected,
+                            const LinkTable& links)
+{
+    return sum_over_rays<1>(work, parts, numbers, AllReflected{reflected}, links);
+}
+
+SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
+                            const LinkNumbers& numbers, const LampsReflected& reflected,
+                            const LinkTable& links)
+{
+    return sum_over_rays<kLampLanes>(work, parts, numbers, reflected, links);
 }
 
 /// Of far hits, the distance between the lumel's centre and the cell's: off by a side at most,

@@ -2,6 +2,7 @@
 // The source term of the equation that sweeps solve: light at the ends of links, without further
 // bounces.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,8 +15,16 @@
 
 namespace lumel {
 
+/// Light of several lamps at once, w unused: one aligned load per lamp.
+template <std::size_t Lanes>
+using LaneLight = std::array<glm::vec4, Lanes>;
+
+/// Lamps whose light is solved for at once: two cache lines of light a link.
+inline constexpr std::size_t kLampLanes = 8;
+
 struct SourceTerm {
-    /// [P] Σ over rays of reflected direct light, and sky [lx]. w: 0, so that sweeps can add to it.
+    /// [P][lanes] Σ over rays of reflected direct light, and sky [lx]. w: 0, so that sweeps can add
+    /// to it.
     std::vector<glm::vec4> light;
     /// [P] Σ of the weights of rays that count: not those to sub-lumels without any. Where all
     /// count, their number.
@@ -47,8 +56,37 @@ private:
     std::vector<glm::vec4> of_number_;  ///< [numbers] w: kVaries if cells differ
 };
 
+/// Direct light of a few lamps that each number of a link's end reflects [lm/m²].
+class LampsReflected {
+public:
+    /// first: of kLampLanes lamps of `lamps`; those beyond the last are dark.
+    LampsReflected(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
+                   const DirectEstimator& direct, const Lamps& lamps, std::size_t first);
+
+    LaneLight<kLampLanes> at(LinkEnd end) const;
+    /// Gathered by a near link [lx]. shares: of its row.
+    LaneLight<kLampLanes> near(std::span<const NearShare> shares, std::uint32_t index) const;
+    /// The sky's light in the lane of its lamp.
+    LaneLight<kLampLanes> of_sky(const glm::vec3& light) const;
+
+private:
+    bool has(std::size_t lamp) const { return lamp >= first_ && lamp < first_ + kLampLanes; }
+
+    const LinkWork& work_;
+    const SubLumels& parts_;
+    const LinkNumbers& numbers_;
+    const DirectEstimator& direct_;
+    const Lamps& lamps_;
+    std::size_t first_, count_;
+    std::vector<LaneLight<kLampLanes>> of_lumel_;  ///< [N]
+};
+
 SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
                             const LinkNumbers& numbers, const ReflectedLight& reflected,
+                            const LinkTable& links);
+/// Of kLampLanes lamps at once.
+SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
+                            const LinkNumbers& numbers, const LampsReflected& reflected,
                             const LinkTable& links);
 
 /// Distances that the rays of several tables went, about.

@@ -37,42 +37,97 @@ constexpr double kSlowestSweep = 1.0 - 1e-6;
 /// A pivot below this means that all light of a group returns to it.
 constexpr double kSingular = 1e-7;
 
+template <std::size_t Lanes>
+using Light = std::vector<LaneLight<Lanes>>;
+
 /// Mean over sub-lumels, summed over channels.
-double mean_of(const std::vector<glm::vec4>& sent, std::size_t parts)
+template <std::size_t Lanes>
+double mean_of(const Light<Lanes>& sent, std::size_t lane, std::size_t parts)
 {
     double sum = 0.0;
-    for (const glm::vec4& light : sent)
-        sum += double(light.x + light.y + light.z);
+    for (const LaneLight<Lanes>& light : sent)
+        sum += double(light[lane].x + light[lane].y + light[lane].z);
     return sum / double(std::max<std::size_t>(parts, 1));
 }
 
+template <std::size_t Lanes>
+void add(LaneLight<Lanes>& sum, const LaneLight<Lanes>& light)
+{
+    for (std::size_t lane = 0; lane < Lanes; ++lane)
+        sum[lane] += light[lane];
+}
+
+template <std::size_t Lanes>
+void add(LaneLight<Lanes>& sum, float weight, const LaneLight<Lanes>& light)
+{
+    for (std::size_t lane = 0; lane < Lanes; ++lane)
+        sum[lane] += weight * light[lane];
+}
+
+template <std::size_t Lanes>
+void add_near(LaneLight<Lanes>& sum, const LinkRow& row, const NearLink& near,
+              const Light<Lanes>& sent)
+{
+    const glm::vec4 passed(glm::unpackF3x9_E1x5(near.weight), 0.0f);
+    const float weight = row.weight(near.slot - row.first_slot);
+    for (std::size_t lane = 0; lane < Lanes; ++lane)
+        sum[lane] += weight * sent[near.end.number()][lane] * passed;
+}
+
 /// Adds the light along the rays of a row to the sub-lumels of lumel i, which is cut.
-void add_row(const LinkRow& row, const SubLumels& parts, std::size_t i,
-             const std::vector<glm::vec4>& sent, std::array<glm::vec4, kMaxParts>& sums)
+template <std::size_t Lanes>
+void add_row(const LinkRow& row, const SubLumels& parts, std::size_t i, const Light<Lanes>& sent,
+             std::array<LaneLight<Lanes>, kMaxParts>& sums)
 {
     for (std::size_t k = 0; k < row.ends.size(); ++k)
-        sums[row.leaves(parts, i, k)] += row.weight(k) * sent[row.ends[k].number()];
-    for (const NearLink& near : row.near) {
-        const std::size_t k = near.slot - row.first_slot;
-        sums[row.leaves(parts, i, k)] += row.weight(k) * sent[near.end.number()] *
-                                         glm::vec4(glm::unpackF3x9_E1x5(near.weight), 0.0f);
-    }
+        add(sums[row.leaves(parts, i, k)], row.weight(k), sent[row.ends[k].number()]);
+    for (const NearLink& near : row.near)
+        add_near(sums[row.leaves(parts, i, near.slot - row.first_slot)], row, near, sent);
 }
 
 /// `sum` with the light along the rays of a row, of a lumel that is not cut.
-glm::vec4 sum_of_row(const LinkRow& row, const std::vector<glm::vec4>& sent, glm::vec4 sum)
+template <std::size_t Lanes>
+LaneLight<Lanes> sum_of_row(const LinkRow& row, const Light<Lanes>& sent, LaneLight<Lanes> sum)
 {
     if (row.probabilities)
         for (std::size_t k = 0; k < row.ends.size(); ++k)
-            sum += row.weight(k) * sent[row.ends[k].number()];
+            add(sum, row.weight(k), sent[row.ends[k].number()]);
     else
         for (const LinkEnd end : row.ends)
-            sum += sent[end.number()];
+            add(sum, sent[end.number()]);
     for (const NearLink& near : row.near)
-        sum += row.weight(near.slot - row.first_slot) * sent[near.end.number()] *
-               glm::vec4(glm::unpackF3x9_E1x5(near.weight), 0.0f);
+        add_near(sum, row, near, sent);
     return sum;
 }
+
+/// Changes of the sent light in a sweep, relative to each sub-lumel's own, of each lane.
+template <std::size_t Lanes>
+struct Change {
+    std::array<double, Lanes> squares{};
+    std::array<std::size_t, Lanes> count{};
+
+    void add(std::size_t lane, const glm::vec4& before, const glm::vec4& after, double floor)
+    {
+        const double now = double(after.x + after.y + after.z);
+        const double then = double(before.x + before.y + before.z);
+        if (!(now > 0.0))
+            return;
+        const double relative = (now - then) / (now + floor);
+        squares[lane] += relative * relative;
+        ++count[lane];
+    }
+    void add(const Change& other)
+    {
+        for (std::size_t lane = 0; lane < Lanes; ++lane) {
+            squares[lane] += other.squares[lane];
+            count[lane] += other.count[lane];
+        }
+    }
+    double size(std::size_t lane) const
+    {
+        return count[lane] > 0 ? std::sqrt(squares[lane] / double(count[lane])) : 0.0;
+    }
+};
 
 }  // namespace
 
@@ -105,9 +160,10 @@ public:
 
     /// Adds the estimated residual to `now`; before: light before the sweep. Returns its RMS
     /// relative to the light of the groups.
-    double correct(const std::vector<Reflected>& before, std::vector<Reflected>& now) const
+    template <std::size_t Lanes>
+    double correct(const Light<Lanes>& before, Light<Lanes>& now, std::size_t lane) const
     {
-        const auto [change, mean] = means(before, now);
+        const auto [change, mean] = means(before, now, lane);
         std::vector<glm::dvec3> factor(size_);
         // (1 - K)⁻¹ K r = (1 - K)⁻¹ r - r.
         for (std::uint32_t a = 0; a < size_; ++a)
@@ -121,7 +177,7 @@ public:
             }
         for_each_span(area_of_part_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
             for (std::size_t p = first; p < last; ++p)
-                now[solver_.numbers_.of_part(std::uint32_t(p))] *=
+                now[solver_.numbers_.of_part(std::uint32_t(p))][lane] *=
                     glm::vec4(factor[solver_.group_[p]], 0.0);
         });
         double squares = 0.0, sent = 0.0;
@@ -141,7 +197,8 @@ private:
     };
 
     /// Means over the areas of groups, of the change and of the light after a sweep.
-    Means means(const std::vector<Reflected>& before, const std::vector<Reflected>& now) const
+    template <std::size_t Lanes>
+    Means means(const Light<Lanes>& before, const Light<Lanes>& now, std::size_t lane) const
     {
         const std::vector<glm::dvec3> none(size_, glm::dvec3(0.0));
         std::vector<Means> sums(kSums, {none, none});
@@ -150,8 +207,8 @@ private:
                 for (std::size_t p = first; p < last; ++p) {
                     const std::uint32_t n = solver_.numbers_.of_part(std::uint32_t(p));
                     const double area = double(area_of_part_[p]);
-                    sums[s].change[solver_.group_[p]] += area * glm::dvec3(now[n] - before[n]);
-                    sums[s].light[solver_.group_[p]] += area * glm::dvec3(now[n]);
+                    sums[s].change[solver_.group_[p]] += area * glm::dvec3(now[n][lane] - before[n][lane]);
+                    sums[s].light[solver_.group_[p]] += area * glm::dvec3(now[n][lane]);
                 }
             });
         Means means{none, none};
@@ -290,87 +347,153 @@ LinkSolver::LinkSolver(const LinkWork& work, const SubLumels& parts, const LinkN
     group_count_ = std::uint32_t(number.size());
 }
 
-/// Computes X of a block's sub-lumels from the light that all send, and the light they then send.
-LinkSolver::Change LinkSolver::sweep_block(const System& system, std::size_t b, double floor,
-                                           const std::vector<Reflected>& sent,
-                                           std::vector<Reflected>& next,
-                                           std::vector<glm::vec3>& received) const
-{
-    Change change;
-    std::vector<LinkRows> rounds;
-    for (const std::vector<LinkBlock>& round : system.links.rounds)
-        rounds.emplace_back(round[b]);
-    const std::size_t end = std::min((b + 1) * kLinkBlock, work_.order.size());
-    for (std::size_t o = b * kLinkBlock; o < end; ++o) {
-        const std::uint32_t i = work_.order[o], first = parts_.first(i), last = parts_.end(i);
-        std::array<glm::vec4, kMaxParts> sums;
-        if (parts_.is_cut(i)) {
-            for (std::uint32_t p = first; p < last; ++p)
-                sums[p - first] = system.source.light[p];
-            for (LinkRows& rows : rounds)
-                add_row(rows.next(true), parts_, i, sent, sums);
-        } else {
-            glm::vec4 sum = system.source.light[first];
-            for (LinkRows& rows : rounds)
-                sum = sum_of_row(rows.next(false), sent, sum);
-            sums[0] = sum;
-        }
-        for (std::uint32_t p = first; p < last; ++p) {
-            // Links to one without rays do not count: that of its lumel's other parts would leak.
-            const float rays = system.source.rays[p];
-            received[p] = rays > 0.0f ? glm::vec3(sums[p - first]) / rays : glm::vec3(0.0f);
-            const std::uint32_t n = numbers_.of_part(p);
-            next[n] = glm::vec4(albedo_[p] * received[p], 0.0f);
-            const double now = double(next[n].x + next[n].y + next[n].z);
-            const double before = double(sent[n].x + sent[n].y + sent[n].z);
-            if (now > 0.0) {
-                const double relative = (now - before) / (now + floor);
-                change.squares += relative * relative;
-                ++change.count;
+/// A solve in progress: X of a few lamps at once, or of all light.
+template <std::size_t Lanes>
+class LinkSolver::Sweeps {
+public:
+    Sweeps(const LinkSolver& solver, const System& system, std::vector<glm::vec3>& received)
+        : solver_(solver),
+          system_(system),
+          received_(received),
+          parts_(solver.parts_.count()),
+          sent_(solver.numbers_.count(), LaneLight<Lanes>{}),
+          next_(sent_)
+    {
+        for (std::uint32_t p = 0; p < parts_; ++p)
+            for (std::size_t lane = 0; lane < Lanes; ++lane)
+                sent_[solver.numbers_.of_part(p)][lane] =
+                    glm::vec4(solver.albedo_[p] * received[p * Lanes + lane], 0.0f);
+        find_floors();
+    }
+
+    /// Runs until the residual is reached.
+    void run(double residual)
+    {
+        std::optional<Groups> groups;
+        std::array<double, Lanes> before{};
+        for (int sweep = 1; sweep <= kSweepLimit; ++sweep) {
+            const Change<Lanes> change = sweep_all();
+            bool is_done = true;
+            for (std::size_t lane = 0; lane < Lanes; ++lane) {
+                const double size = change.size(lane);
+                // Changes that shrink by a factor q leave q / (1 - q) of the last as residual. The
+                // first change does not: it is all light in the first round, and noise of new rays
+                // in later ones.
+                const double factor =
+                    std::min(before[lane] > 0.0 ? size / before[lane] : kSlowestSweep,
+                             kSlowestSweep);
+                const double to_come = groups && size > 0.0
+                                           ? size + groups->correct(sent_, next_, lane)
+                                           : size * factor / (1.0 - factor);
+                before[lane] = size;
+                is_done = is_done &&
+                          (size == 0.0 || (sweep > kFirstSweeps && to_come < residual));
             }
+            sent_.swap(next_);
+            if (is_done)
+                return;
+            if (sweep == 1)
+                find_floors();
+            if (sweep == kPlainSweeps)
+                groups.emplace(solver_, system_);
         }
     }
-    return change;
-}
+
+private:
+    void find_floors()
+    {
+        for (std::size_t lane = 0; lane < Lanes; ++lane)
+            floor_[lane] = kDarkestCounted * mean_of(sent_, lane, parts_);
+    }
+
+    Change<Lanes> sweep_all()
+    {
+        const std::size_t blocks = (solver_.work_.order.size() + kLinkBlock - 1) / kLinkBlock;
+        std::vector<Change<Lanes>> changes(blocks);
+        parallel_for(blocks, kBlocksPerTask, [&](std::size_t first, std::size_t last) {
+            for (std::size_t b = first; b < last; ++b)
+                changes[b] = sweep_block(b);
+        });
+        Change<Lanes> all;
+        for (const Change<Lanes>& change : changes)
+            all.add(change);
+        return all;
+    }
+
+    LaneLight<Lanes> source(std::uint32_t part) const
+    {
+        LaneLight<Lanes> light;
+        for (std::size_t lane = 0; lane < Lanes; ++lane)
+            light[lane] = system_.source.light[part * Lanes + lane];
+        return light;
+    }
+
+    /// Computes X of a block's sub-lumels from the light that all send, and the light they then
+    /// send.
+    Change<Lanes> sweep_block(std::size_t b)
+    {
+        Change<Lanes> change;
+        const std::vector<std::uint32_t>& order = solver_.work_.order;
+        const SubLumels& parts = solver_.parts_;
+        std::vector<LinkRows> rounds;
+        for (const std::vector<LinkBlock>& round : system_.links.rounds)
+            rounds.emplace_back(round[b]);
+        const std::size_t end = std::min((b + 1) * kLinkBlock, order.size());
+        for (std::size_t o = b * kLinkBlock; o < end; ++o) {
+            const std::uint32_t i = order[o], first = parts.first(i), last = parts.end(i);
+            std::array<LaneLight<Lanes>, kMaxParts> sums;
+            if (parts.is_cut(i)) {
+                for (std::uint32_t p = first; p < last; ++p)
+                    sums[p - first] = source(p);
+                for (LinkRows& rows : rounds)
+                    add_row<Lanes>(rows.next(true), parts, i, sent_, sums);
+            } else {
+                LaneLight<Lanes> sum = source(first);
+                for (LinkRows& rows : rounds)
+                    sum = sum_of_row<Lanes>(rows.next(false), sent_, sum);
+                sums[0] = sum;
+            }
+            for (std::uint32_t p = first; p < last; ++p)
+                receive(p, sums[p - first], change);
+        }
+        return change;
+    }
+
+    void receive(std::uint32_t p, const LaneLight<Lanes>& sum, Change<Lanes>& change)
+    {
+        // Links to one without rays do not count: that of its lumel's other parts would leak.
+        const float rays = system_.source.rays[p];
+        const std::uint32_t n = solver_.numbers_.of_part(p);
+        for (std::size_t lane = 0; lane < Lanes; ++lane) {
+            glm::vec3& received = received_[p * Lanes + lane];
+            received = rays > 0.0f ? glm::vec3(sum[lane]) / rays : glm::vec3(0.0f);
+            next_[n][lane] = glm::vec4(solver_.albedo_[p] * received, 0.0f);
+            change.add(lane, sent_[n][lane], next_[n][lane], floor_[lane]);
+        }
+    }
+
+    const LinkSolver& solver_;
+    const System& system_;
+    std::vector<glm::vec3>& received_;
+    const std::size_t parts_;
+    Light<Lanes> sent_, next_;
+    std::array<double, Lanes> floor_{};
+};
 
 void LinkSolver::solve(const LinkTable& links, const SourceTerm& source, double residual,
                        std::vector<glm::vec3>& received) const
 {
+    received.resize(parts_.count(), glm::vec3(0.0f));
     const System system{links, source};
-    const std::size_t parts = parts_.count(),
-                      blocks = (work_.order.size() + kLinkBlock - 1) / kLinkBlock;
-    received.resize(parts, glm::vec3(0.0f));
-    std::vector<Reflected> sent(numbers_.count(), Reflected(0.0f)), next(sent);
-    for (std::uint32_t p = 0; p < parts; ++p)
-        sent[numbers_.of_part(p)] = glm::vec4(albedo_[p] * received[p], 0.0f);
-    std::optional<Groups> groups;
-    std::vector<Change> changes(blocks);
-    double before = 0.0, floor = kDarkestCounted * mean_of(sent, parts);
-    for (int sweep = 1; sweep <= kSweepLimit; ++sweep) {
-        parallel_for(blocks, kBlocksPerTask, [&](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b)
-                changes[b] = sweep_block(system, b, floor, sent, next, received);
-        });
-        Change all;
-        for (const Change& change : changes) {
-            all.squares += change.squares;
-            all.count += change.count;
-        }
-        const double size = all.count > 0 ? std::sqrt(all.squares / double(all.count)) : 0.0;
-        // Changes that shrink by a factor q leave q / (1 - q) of the last as residual. The first
-        // change does not: it is all light in the first round, and noise of new rays in later ones.
-        const double factor = std::min(before > 0.0 ? size / before : kSlowestSweep, kSlowestSweep);
-        const double to_come =
-            groups ? size + groups->correct(sent, next) : size * factor / (1.0 - factor);
-        sent.swap(next);
-        before = size;
-        if (size == 0.0 || (sweep > kFirstSweeps && to_come < residual))
-            return;
-        if (sweep == 1)
-            floor = kDarkestCounted * mean_of(sent, parts);
-        if (sweep == kPlainSweeps)
-            groups.emplace(*this, system);
-    }
+    Sweeps<1>(*this, system, received).run(residual);
+}
+
+void LinkSolver::solve_lamps(const LinkTable& links, const SourceTerm& source, double residual,
+                             std::vector<glm::vec3>& received) const
+{
+    received.assign(parts_.count() * kLampLanes, glm::vec3(0.0f));
+    const System system{links, source};
+    Sweeps<kLampLanes>(*this, system, received).run(residual);
 }
 
 }  // namespace lumel

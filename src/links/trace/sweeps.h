@@ -29,24 +29,20 @@ public:
     void solve(const LinkTable& links, const SourceTerm& source, double residual,
                std::vector<glm::vec3>& received) const;
 
+    /// X [P][kLampLanes] of a few lamps at once, from darkness; source: of these.
+    void solve_lamps(const LinkTable& links, const SourceTerm& source, double residual,
+                     std::vector<glm::vec3>& received) const;
+
 private:
     class Groups;
-    using Reflected = glm::vec4;  ///< ρ X, padded: one aligned load per link
-    /// Changes of the sent light in a sweep, relative to each sub-lumel's own.
-    struct Change {
-        double squares = 0.0;
-        std::size_t count = 0;
-    };
+    template <std::size_t Lanes>
+    class Sweeps;
 
     /// Links with the light at their ends.
     struct System {
         const LinkTable& links;
         const SourceTerm& source;
     };
-
-    Change sweep_block(const System& system, std::size_t block, double floor,
-                       const std::vector<Reflected>& sent, std::vector<Reflected>& next,
-                       std::vector<glm::vec3>& received) const;
 
     const LinkWork& work_;
     const SubLumels& parts_;

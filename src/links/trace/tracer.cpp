@@ -71,6 +71,14 @@ struct LinkTracer::PathHit {
     std::uint32_t unseen_cells = 0;  ///< bit c: cell c was tested, and is occluded
 };
 
+/// A part of a path's light, as in NearShare.
+struct LinkTracer::PathShare {
+    std::uint32_t path;
+    std::uint32_t lamp;
+    LinkEnd at;
+    glm::vec3 light;
+};
+
 /// Light of the sky along a ray.
 struct LinkTracer::SkyRay {
     std::uint32_t slot;
@@ -87,7 +95,8 @@ struct LinkTracer::RayBatch {
     std::vector<std::uint8_t> from;            ///< [slots] cells that the rays leave
     std::vector<std::uint16_t> probabilities;  ///< [slots] of guided directions
     std::vector<SkyRay> sky;
-    std::vector<Path> paths;  ///< by slot
+    std::vector<Path> paths;         ///< by slot
+    std::vector<PathShare> shares;  ///< of paths; empty unless lamps are kept apart
 
     // Rays that have not ended.
     std::vector<RaySpan> rays;
@@ -120,6 +129,7 @@ struct LinkTracer::RayBatch {
         probabilities.clear();
         sky.clear();
         paths.clear();
+        shares.clear();
         rays.clear();
         of.clear();
         along.clear();
@@ -127,7 +137,7 @@ struct LinkTracer::RayBatch {
 };
 
 LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-                       const DirectEstimator& direct, std::uint32_t seed)
+                       const DirectEstimator& direct, std::uint32_t seed, const Lamps* lamps)
     : work_(work),
       parts_(parts),
       numbers_(numbers),
@@ -135,6 +145,7 @@ LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkN
       direct_(direct),
       hits_(work.scene.scene, work.scene.atlas, work.scene.lumels),
       seed_(seed),
+      lamps_(lamps),
       margin_(work.scene.rays.ray_offset())
 {
 }
@@ -361,8 +372,18 @@ void LinkTracer::meet_first(RayBatch& wave) const
                  .looks_around = half || sides < near_for_light,
                  .goes_on = half || sides < kNearSides});
         } else if (at.end == LinkNumbers::kSky)
-            wave.paths.back().light = hit.tint * kPi * work_.sources.dim_sky(ray.direction);
+            add_sky(wave, path, ray);
     }
+}
+
+/// Adds the light of the sky at the end of a path.
+void LinkTracer::add_sky(RayBatch& wave, std::uint32_t path, const RaySpan& ray) const
+{
+    const glm::vec3 light =
+        wave.paths[path].weight * kPi * work_.sources.dim_sky(ray.direction);
+    wave.paths[path].light += light;
+    if (lamps_)
+        wave.shares.push_back({path, lamps_->of_dim_sky, {}, light});
 }
 
 /// Ends reflected paths that hit no lumel; makes a PathHit of the others.
@@ -377,7 +398,7 @@ void LinkTracer::meet(RayBatch& wave, int reflections) const
         if (at.lumel == kNoLumel) {
             path.end = LinkEnd::of(at.end);
             if (at.end == LinkNumbers::kSky)
-                path.light += path.weight * kPi * work_.sources.dim_sky(ray.direction);
+                add_sky(wave, wave.of[r], ray);
             continue;
         }
         const float sides = hit.distance / std::max(path.size, at.size);
@@ -477,8 +498,15 @@ void LinkTracer::end_or_reflect(RayBatch& wave, int reflections) const
         path.end = LinkEnd::of(LinkNumbers::kBelow);
         if (arrival.is_hidden && !arrival.goes_on)
             continue;
-        if (!arrival.looks_around)
+        if (!arrival.looks_around) {
             path.light += path.weight * albedo * direct_.at(arrival.lumel, arrival.cell);
+            if (lamps_)
+                wave.shares.push_back(
+                    {arrival.path, NearShare::kEveryLamp,
+                     LinkEnd::of(numbers_.of_part(parts_.part(arrival.lumel, arrival.cell)),
+                                 arrival.cell),
+                     path.weight});
+        }
         if (!arrival.goes_on) {
             path.end = LinkEnd::of(numbers_.of_part(parts_.part(arrival.lumel, arrival.cell)),
                                    arrival.cell);
@@ -496,7 +524,12 @@ void LinkTracer::end_or_reflect(RayBatch& wave, int reflections) const
     wave.looks.cast(work_.caster_of_few());
     for (std::uint32_t n = 0; n < wave.looking.size(); ++n) {
         Path& path = wave.paths[wave.looking[n]];
-        path.light += path.weight * direct_.light_of(wave.looks, n * direct_.looks_around());
+        const std::uint32_t first = n * direct_.looks_around();
+        path.light += path.weight * direct_.light_of(wave.looks, first);
+        for (std::uint32_t look = first; lamps_ && look < first + direct_.looks_around(); ++look)
+            wave.shares.push_back(
+                {wave.looking[n], lamps_->of_source[wave.looks.sample(look).source], {},
+                 path.weight * wave.looks.transmittance(look) * wave.looks.sample(look).irradiance});
     }
     wave.rays.swap(wave.next_rays);
     wave.of.swap(wave.next_of);
@@ -535,9 +568,11 @@ void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
     const auto by_slot = [](const SkyRay& a, const SkyRay& b) { return a.slot < b.slot; };
     if (!std::is_sorted(wave.sky.begin(), wave.sky.end(), by_slot))
         std::sort(wave.sky.begin(), wave.sky.end(), by_slot);
+    std::ranges::stable_sort(wave.shares, {}, &PathShare::path);
     into.rounds.back()[first / kLinkBlock].traced += wave.first_rays;
     auto sky = wave.sky.begin();
     auto path = wave.paths.begin();
+    auto share = wave.shares.begin();
     for (std::size_t n = 0; n < wave.lumels.size(); ++n) {
         LinkBlock& block = into.rounds.back()[(first + n) / kLinkBlock];
         const std::uint32_t i = wave.lumels[n], begin = wave.slots_before[n],
@@ -545,11 +580,19 @@ void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
         const auto in_block = [&](std::uint32_t slot) {
             return std::uint32_t(block.ends.size()) + slot - begin;
         };
-        for (; path != wave.paths.end() && path->slot < end; ++path)
-            if (wave.ends[path->slot].number() == LinkNumbers::kNear)
+        for (; path != wave.paths.end() && path->slot < end; ++path) {
+            const bool is_near = wave.ends[path->slot].number() == LinkNumbers::kNear;
+            for (; share != wave.shares.end() &&
+                   share->path == std::uint32_t(path - wave.paths.begin());
+                 ++share)
+                if (is_near)
+                    block.shares.push_back({std::uint32_t(block.near.size()), share->lamp,
+                                            share->at, share->light});
+            if (is_near)
                 block.near.push_back({in_block(path->slot), path->end,
                                       glm::packF3x9_E1x5(path->weight), path->distance,
                                       path->light});
+        }
         for (; sky != wave.sky.end() && sky->slot < end; ++sky)
             into.sky[parts_.part(i, wave.from[sky->slot])] +=
                 (wave.probabilities.empty() ? 1.0f
@@ -623,6 +666,7 @@ void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sendi
         block.ends.shrink_to_fit();
         block.from.shrink_to_fit();
         block.near.shrink_to_fit();
+        block.shares.shrink_to_fit();
         block.probabilities.shrink_to_fit();
         const auto is_uniform = [](std::uint16_t one) { return one == RayGuide::kUniform; };
         if (std::ranges::all_of(block.probabilities, is_uniform))

@@ -28,9 +28,9 @@ inline constexpr std::uint32_t kDirectionPair = 1;
 /// Traces rays from lumels until they hit a sub-lumel.
 class LinkTracer {
 public:
-    /// All arguments must outlive this.
+    /// All arguments must outlive this. lamps: whose light is kept apart, or null.
     LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-               const DirectEstimator& direct, std::uint32_t seed);
+               const DirectEstimator& direct, std::uint32_t seed, const Lamps* lamps = nullptr);
 
     std::size_t blocks() const { return (work_.order.size() + kLinkBlock - 1) / kLinkBlock; }
 
@@ -59,6 +59,7 @@ private:
     struct Landing;
     struct Path;
     struct PathHit;
+    struct PathShare;
     struct SkyRay;
     struct RayBatch;
 
@@ -71,6 +72,7 @@ private:
     Landing landing_of(const RaySpan& ray, const RayHit& hit, std::uint32_t lumel) const;
     void meet_first(RayBatch& wave) const;
     void meet(RayBatch& wave, int reflections) const;
+    void add_sky(RayBatch& wave, std::uint32_t path, const RaySpan& ray) const;
     void find_seen_cells(RayBatch& wave, int reflections) const;
     std::optional<RaySpan> ray_to_cell(PathHit& arrival, const CellPoints& points,
                                        std::uint32_t seed) const;
@@ -90,6 +92,7 @@ private:
     const DirectEstimator& direct_;
     NearLumels hits_;
     std::uint32_t seed_;
+    const Lamps* lamps_;
     float margin_;  ///< [m] of boxes
 };
 

@@ -19,7 +19,8 @@ namespace lumel {
 
 /// Files of a finished bake that are read again.
 inline constexpr const char *kReportFile = "report.json", *kSceneFile = "scene.glb",
-                            *kSolutionFile = "solution.exr", *kPreview = "preview.png";
+                            *kSolutionFile = "solution.exr", *kPreview = "preview.png",
+                            *kLampsFile = "lamps.json";
 /// Layer of solution.exr, see write_solution().
 inline constexpr const char* kErrorLayer = "error";
 /// Output of lumel report and lumel probes, outdated by a new bake.

@@ -46,7 +46,9 @@ std::vector<float> filtered(const FilterChart& chart, const Solutions& found,
                             const PyramidRule& rule = rule_of_indirect())
 {
     std::vector<float> mean;
-    for (const FitLight<3>& light : filter_chart<3>(chart, {&found[0], &found[1], &found[2]}, rule))
+    const std::vector<FitLight<3>> filtered =
+        filter_chart<3>(chart, {&found[0], &found[1], &found[2]}, rule).light;
+    for (const FitLight<3>& light : filtered)
         mean.push_back((light[0] + light[3] + light[6]) / 3.0f);
     return mean;
 }

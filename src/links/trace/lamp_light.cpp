@@ -1,0 +1,182 @@
+// LinkRadiosity's light of each lamp. Light is linear in its sources: the links serve all lamps, and
+// only direct light, source term and sweeps are a lamp's own. The filter has the gains of the whole
+// light, so that the lamps add up to it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/core/parallel.h"
+#include "links/trace/links.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::size_t kLumelsPerTask = 4096;
+
+/// Of the filtered light, variance and squared bias left of each lumel's variance [N].
+std::vector<double> error_left(const ChartFilter* filter, const Mean& plain, const Mean& filtered)
+{
+    if (!filter)
+        return std::vector<double>(plain.noise.size(), 1.0);
+    std::vector<double> error(filtered.noise.begin(), filtered.noise.end());
+    for (std::size_t i = 0; i < error.size(); ++i)
+        error[i] += double(filtered.wrong[i]);
+    std::vector<double> left =
+        filter->variance_left({plain.noise.begin(), plain.noise.end()}, error);
+    for (double& one : left)
+        one = std::max(one, 0.0);
+    return left;
+}
+
+/// Replaces negative light, which fits can give, by none.
+void add_positive(Estimates& sum, const Estimates& light)
+{
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += glm::max(light[i], glm::vec3(0.0f));
+}
+
+}  // namespace
+
+/// X of kLampLanes lamps at once, in each solution [N][kLampLanes].
+struct LinkRadiosity::LampSolutions {
+    std::array<std::vector<glm::vec3>, kSolutions> light;
+
+    std::array<glm::vec3, kSolutions> at(std::size_t lumel, std::size_t lane) const
+    {
+        const std::size_t index = lumel * kLampLanes + lane;
+        return {light[0][index], light[1][index], light[2][index]};
+    }
+};
+
+void LinkRadiosity::drop_round_in_progress()
+{
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        links_[k]->rounds.resize(round_);
+        links_[k]->sky = swept_sky_[k];
+    }
+}
+
+LinkRadiosity::LampSolutions LinkRadiosity::solve_lamps(const LampsReflected& reflected)
+{
+    LampSolutions found;
+    std::vector<glm::vec3> received;
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        const SourceTerm source =
+            find_source_term(work_, *parts_, *numbers_, reflected, *links_[k]);
+        solver_->solve_lamps(*links_[k], source, sweep_residual(), received);
+        std::vector<glm::vec3>& light = found.light[k];
+        light.assign(work_.lumels().size() * kLampLanes, glm::vec3(0.0f));
+        parallel_for(work_.lumels().size(), kLumelsPerTask, [&](std::size_t from, std::size_t to) {
+            for (std::size_t i = from; i < to; ++i) {
+                float rays = 0.0f;
+                for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
+                    rays += source.rays[p];
+                if (!(rays > 0.0f))
+                    continue;
+                for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
+                    const LaneLight<kLampLanes> sky = reflected.of_sky(links_[k]->sky[p]);
+                    for (std::size_t lane = 0; lane < kLampLanes; ++lane) {
+                        const glm::vec3 all = source.rays[p] * received[p * kLampLanes + lane];
+                        const glm::vec3 first(sky[lane]);
+                        light[i * kLampLanes + lane] += parts_wanted_ == Parts::all ? all / rays
+                                                        : parts_wanted_ == Parts::direct
+                                                            ? first / rays
+                                                            : (all - first) / rays;
+                    }
+                }
+            }
+        });
+    }
+    return found;
+}
+
+/// Adds the light that rays bring, and to `squares` its squared errors.
+void LinkRadiosity::add_indirect_lamps(std::vector<LampLight>& lamps, std::vector<double>& squares)
+{
+    const std::size_t count = work_.lumels().size();
+    const Solutions whole = brought_light();
+    const std::vector<double> left = error_left(filter(), plain_mean(whole), mean_);
+    for (std::size_t first = 0; first < lamps.size(); first += kLampLanes) {
+        const LampsReflected reflected(work_, *parts_, *numbers_, *direct_, *lamps_, first);
+        const LampSolutions found = solve_lamps(reflected);
+        std::vector<Estimates> means(std::min(kLampLanes, lamps.size() - first), Estimates(count));
+        for (std::size_t lane = 0; lane < means.size(); ++lane)
+            for (std::size_t i = 0; i < count; ++i) {
+                const auto [a, b, c] = found.at(i, lane);
+                means[lane][i] = (a + b + c) / 3.0f;
+                squares[first + lane] += left[i] * spread(a, b, c) / 18.0;
+            }
+        if (filter())
+            filter()->indirect_parts(whole, means);
+        for (std::size_t lane = 0; lane < means.size(); ++lane)
+            add_positive(lamps[first + lane].irradiance, means[lane]);
+    }
+}
+
+/// Adds direct light, and to `squares` its squared errors.
+void LinkRadiosity::add_direct_lamps(std::vector<LampLight>& lamps, std::vector<double>& squares)
+{
+    const std::size_t count = work_.lumels().size();
+    const Estimates &one = direct_->half(0), &other = direct_->half(1);
+    const std::vector<double> left = error_left(filter(), plain_mean(one, other), direct_mean_);
+    std::vector<Estimates> means(lamps.size(), Estimates(count));
+    for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp)
+        for (std::size_t i = 0; i < count; ++i) {
+            means[lamp][i] = direct_->mean_of_lamp(i, lamp);
+            const glm::vec3 apart = direct_->lamp_apart(i, lamp);
+            squares[lamp] += left[i] * 0.25 * double(glm::dot(apart, apart));
+        }
+    if (filter())
+        filter()->direct_parts(one, other, means);
+    for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp)
+        add_positive(lamps[lamp].irradiance, means[lamp]);
+}
+
+/// Scales the lamps of each lumel so that they add up to its light: their sweeps end at a residual,
+/// and no light is negative. Light without a lamp goes to all.
+void LinkRadiosity::make_sum_exact(std::vector<LampLight>& lamps) const
+{
+    parallel_for(work_.lumels().size(), kLumelsPerTask, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+            const glm::vec3 whole = arrived(i);
+            glm::vec3 sum(0.0f);
+            for (const LampLight& lamp : lamps)
+                sum += lamp.irradiance[i];
+            for (LampLight& lamp : lamps)
+                for (int c = 0; c < 3; ++c)
+                    lamp.irradiance[i][c] = sum[c] > 0.0f
+                                                ? lamp.irradiance[i][c] * (whole[c] / sum[c])
+                                                : whole[c] / float(lamps.size());
+        }
+    });
+}
+
+std::vector<LinkRadiosity::LampLight> LinkRadiosity::light_of_lamps()
+{
+    const std::size_t count = work_.lumels().size();
+    std::vector<LampLight> lamps(lamp_count());
+    for (LampLight& lamp : lamps)
+        lamp.irradiance.assign(count, glm::vec3(0.0f));
+    std::vector<double> squares(lamps.size(), 0.0);
+    if (!mean_.light.empty()) {
+        drop_round_in_progress();
+        add_indirect_lamps(lamps, squares);
+    }
+    if (direct_ && parts_wanted_ != Parts::indirect)
+        add_direct_lamps(lamps, squares);
+    make_sum_exact(lamps);
+    for (std::size_t k = 0; k < lamps.size(); ++k) {
+        double light = 0.0, lumels = 0.0;
+        for (std::size_t i = 0; i < count; ++i)
+            if (!work_.is_buried(i)) {
+                const glm::vec3& own = lamps[k].irradiance[i];
+                light += double(own.r + own.g + own.b);
+                lumels += 1.0;
+            }
+        // √(Σ d² / 3n) / (Σ H / 3n)
+        lamps[k].error = light > 0.0 ? std::sqrt(3.0 * lumels * squares[k]) / light : 0.0;
+    }
+    return lamps;
+}
+
+}  // namespace lumel
