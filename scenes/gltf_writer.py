@@ -51,6 +51,14 @@ def png(width, height, pixel):
     )
 
 
+def turned_to(direction):
+    """The shortest rotation of -z to `direction`, not +z, as a quaternion."""
+    x, y, z = unit(direction)
+    half = [y, -x, 0.0, 1.0 - z]
+    length = math.sqrt(sum(value * value for value in half))
+    return [value / length + 0.0 for value in half]
+
+
 class Part:
     """Triangles of one material."""
 
@@ -185,7 +193,7 @@ class Gltf:
             if strength > 1.0:
                 extension = "KHR_materials_emissive_strength"
                 material["extensions"] = {extension: {"emissiveStrength": strength}}
-                self.root["extensionsUsed"] = [extension]
+                self._use(extension)
         if double_sided:
             material["doubleSided"] = True
         self.root["materials"].append(material)
@@ -236,6 +244,22 @@ class Gltf:
         matrix = [x + 0.0 for x in matrix]
         self._add({"name": name, "camera": len(self.root["cameras"]) - 1, "matrix": matrix})
 
+    def light(self, name, kind, position, intensity, colour, direction=(0.0, 0.0, -1.0), inner=0.0, outer=math.pi / 4):
+        """A "point" or "spot" light of `intensity` [cd]; a spot shines along `direction`, its cone between the angles
+        `inner` and `outer` from it."""
+        extension = "KHR_lights_punctual"
+        self._use(extension)
+        light = {"name": name, "type": kind, "color": list(colour), "intensity": intensity}
+        if kind == "spot":
+            light["spot"] = {"innerConeAngle": inner, "outerConeAngle": outer}
+        lights = self.root.setdefault("extensions", {}).setdefault(extension, {"lights": []})["lights"]
+        lights.append(light)
+        node = {"name": name, "translation": list(position), "extensions": {extension: {"light": len(lights) - 1}}}
+        rotation = turned_to(direction)
+        if rotation != [0.0, 0.0, 0.0, 1.0]:
+            node["rotation"] = rotation
+        self._add(node)
+
     def turn(self, name, seconds, steps=8):
         """Animates the node of that name: a whole turn about its own vertical axis."""
         index = next(k for k, node in enumerate(self.root["nodes"]) if node["name"] == name)
@@ -257,6 +281,11 @@ class Gltf:
         with open(path, "w", encoding="utf-8", newline="\n") as file:
             json.dump(self.root, file, indent=1)
             file.write("\n")
+
+    def _use(self, extension):
+        used = self.root.setdefault("extensionsUsed", [])
+        if extension not in used:
+            used.append(extension)
 
     def _add(self, node):
         self.root["nodes"].append(node)

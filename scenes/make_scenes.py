@@ -6,6 +6,7 @@ import os
 import random
 
 from gltf_writer import Gltf, Shape
+from office import office
 from room import room
 
 
@@ -392,6 +393,7 @@ def main():
         "moving-indirect": moving_indirect(),
         "city": city(),
         "room": room(),
+        "office": office(),
         "planes": planes(),
         "four-cubes": four_cubes(),
         "three-balls": three_balls(),
