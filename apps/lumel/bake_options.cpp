@@ -45,20 +45,19 @@ LampGroup lamp_group(const std::string& text)
 
 void add_lamp_options(Command& command, GivenLinks& links)
 {
-    command.add(kLightmapGroup,
-                {{"--per-lamp", "",
-                  "Also write a map for each lamp, emissive object, sun and sky, which add up to "
-                  "the lightmap: lamp-NAME.exr and lamps.json, for the sliders of lumel report "
-                  "(only links)",
-                  &links.per_lamp},
-                 {.names = "--group",
-                  .type = "NAME=PATTERN",
-                  .help = "With --per-lamp, keep all lamps whose names fit the pattern as one, such "
-                          "as kitchen='lamp_k*'",
-                  .target = [&links](const std::string& text) {
-                      links.groups.push_back(lamp_group(text));
-                  },
-                  .repeatable = true}});
+    command.add(
+        kLightmapGroup,
+        {{"--per-lamp", "",
+          "Also write a map for each lamp, emissive object, sun and sky, which add up to "
+          "the lightmap: lamp-NAME.exr and lamps.json, for the sliders of lumel report "
+          "(only links)",
+          &links.per_lamp},
+         {.names = "--group",
+          .type = "NAME=PATTERN",
+          .help = "With --per-lamp, keep all lamps whose names fit the pattern as one, such "
+                  "as kitchen='lamp_k*'",
+          .target = [&links](const std::string& text) { links.groups.push_back(lamp_group(text)); },
+          .repeatable = true}});
 }
 
 void add_links_options(Command& command, GivenLinks& links)

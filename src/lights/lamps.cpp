@@ -50,8 +50,7 @@ std::vector<LightSource> all_sources(const Scene& scene, const Lumels& lumels,
         if (std::ranges::any_of(all, holds))
             continue;
         const std::string& name = scene.instances[info.instance].name;
-        const std::string shown =
-            name.empty() ? "instance " + std::to_string(info.instance) : name;
+        const std::string shown = name.empty() ? "instance " + std::to_string(info.instance) : name;
         const auto same = std::ranges::find(all, shown, &LightSource::name);
         (same != all.end() ? *same : all.emplace_back(LightSource{.name = shown}))
             .instances.push_back(info.instance);
@@ -101,19 +100,19 @@ void check_groups(const std::vector<LightSource>& sources, std::span<const LampG
 
 /// [sources] Index of the lamp of each.
 std::vector<std::uint32_t> join(const Scene& scene, const std::vector<LightSource>& sources,
-                                std::span<const LampGroup> groups, std::vector<Lamp>& lamps)
+                                std::span<const LampGroup> groups, std::vector<NamedLamp>& lamps)
 {
     std::vector<std::uint32_t> lamp_of;
     for (const LightSource& source : sources) {
         const std::optional<std::size_t> group = group_of(source, groups);
         const std::string name = group ? groups[*group].name : source.name;
-        auto lamp = std::ranges::find(lamps, name, &Lamp::name);
+        auto lamp = std::ranges::find(lamps, name, &NamedLamp::name);
         if (lamp != lamps.end() && !(group && lamp->kind == kGroupKind))
             throw Error(ErrorKind::input, "--group " + name,
                         "has the name of a lamp that is not in the group; choose another name");
         if (lamp == lamps.end())
-            lamp = lamps.insert(lamps.end(),
-                                {.name = name, .kind = group ? kGroupKind : kind_of(scene, source)});
+            lamp = lamps.insert(
+                lamps.end(), {.name = name, .kind = group ? kGroupKind : kind_of(scene, source)});
         lamp->members.push_back(source.name);
         lamp_of.push_back(std::uint32_t(lamp - lamps.begin()));
     }
@@ -122,14 +121,14 @@ std::vector<std::uint32_t> join(const Scene& scene, const std::vector<LightSourc
 
 }  // namespace
 
-Lamps find_lamps(const Scene& scene, const Lumels& lumels, const LightSources& sources,
-                 std::span<const LampGroup> groups)
+LampTable find_lamps(const Scene& scene, const Lumels& lumels, const LightSources& sources,
+                     std::span<const LampGroup> groups)
 {
     const std::vector<LightSource> all = all_sources(scene, lumels, sources);
     if (all.empty())
         throw Error(ErrorKind::input, "--per-lamp", "needs a lamp, and the scene has none");
     check_groups(all, groups);
-    Lamps lamps;
+    LampTable lamps;
     const std::vector<std::uint32_t> lamp_of = join(scene, all, groups, lamps.all);
     if (lamps.all.size() > kMaxLamps)
         throw Error(ErrorKind::input, "--per-lamp",

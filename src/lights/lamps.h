@@ -21,14 +21,14 @@ struct LampGroup {
 };
 
 /// A lamp, or a group of lamps.
-struct Lamp {
+struct NamedLamp {
     std::string name;
     std::vector<std::string> members;  ///< names of the joined lamps, or the lamp's own
     std::string kind;                  ///< "sky", "sun", "point", "spot", "surface" or "group"
 };
 
-struct Lamps {
-    std::vector<Lamp> all;
+struct LampTable {
+    std::vector<NamedLamp> all;
     std::vector<std::uint32_t> of_source;  ///< [LightSources::count()]
     std::uint32_t of_dim_sky = 0;          ///< of LightSources::dim_sky(); 0 without a sky
 };
@@ -36,7 +36,7 @@ struct Lamps {
 /// Lamps of a scene: those of light_sources(), joined by groups. Throws Error{input} if there is
 /// none or there are more than kMaxLamps, for a group that fits no lamp, and for a lamp that two
 /// groups fit.
-Lamps find_lamps(const Scene& scene, const Lumels& lumels, const LightSources& sources,
-                 std::span<const LampGroup> groups);
+LampTable find_lamps(const Scene& scene, const Lumels& lumels, const LightSources& sources,
+                     std::span<const LampGroup> groups);
 
 }  // namespace lumel

@@ -100,8 +100,7 @@ private:
         Box box;                   ///< bounding box [m]
     };
 
-    SourceSample sample_of(const Source& source, const RayOrigin& start,
-                           const glm::vec2& at) const;
+    SourceSample sample_of(const Source& source, const RayOrigin& start, const glm::vec2& at) const;
     void add_surfaces(const Surfaces& surfaces);
     void add_surface(const Surfaces& surfaces, std::size_t index);
     void add_lights();

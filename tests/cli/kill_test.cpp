@@ -152,6 +152,31 @@ TEST(Kills, AreGoneOnFromToTheSameBytes)
     EXPECT_EQ(same, kills());
 }
 
+/// The light of lamps kept apart is part of the checkpoint.
+TEST(Resume, OfABakePerLampGivesTheSameMaps)
+{
+    const Workplace place;
+    const std::vector<std::string> lamps = {"--per-lamp", "--sky", "1,2,3"};
+    ASSERT_EQ(run_lumel(resumable(place.path("whole"), {.checkpoint = "0", .more = lamps})).code,
+              0);
+    const auto whole = contents(place.path("whole"));
+    ASSERT_TRUE(whole.contains("lamp-sky.exr"));
+    bool went_on = false;
+    for (double seconds = 0.5; !went_on && seconds < 60.0; seconds *= 1.2) {
+        fs::remove_all(place.path("out"));
+        run_lumel(resumable(place.path("out"), {.more = lamps}), {.kill_after = seconds});
+        if (!fs::exists(place.path("out/.lumel-checkpoint")))
+            continue;
+        std::vector<std::string> more = lamps;
+        more.emplace_back("--resume");
+        const Outcome last = run_lumel(resumable(place.path("out"), {.more = more}));
+        ASSERT_EQ(last.code, 0) << last.err;
+        went_on = last.err.find("continuing after") != std::string::npos;
+    }
+    EXPECT_TRUE(went_on);
+    EXPECT_TRUE(contents(place.path("out")) == whole);
+}
+
 /// A folder in which a bake has left its checkpoint. Returns after how long it was killed [s].
 double leave_checkpoint(const std::string& folder)
 {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "../support/box_lumels.h"
+#include "links/trace/links.h"
 #include "solved.h"
 #include "truth/reference.h"
 
@@ -130,6 +131,38 @@ TEST_P(ClosedPair, IsExactlyDarkBehindTheWall)
     EXPECT_EQ(lit, 0u) << "of " << dark.size() << " lumels";
     EXPECT_TRUE(std::any_of(light.begin(), light.end(),
                             [](const glm::vec3& one) { return one.g > 50.0f; }));
+}
+
+/// A lamp in each room: cells of lumels that the wall cuts keep the light of both apart.
+TEST_P(ClosedPair, KeepsTheLightOfALampInItsRoom)
+{
+    const Rooms rooms = GetParam();
+    Scene scene = two_rooms(rooms);
+    const std::size_t first = scene.instances.size() - 1;
+    support::add_quad(scene, {.corner = {kWide + rooms.wall + 1.3f, kHigh - 0.4f, 1.2f},
+                              .edge_u = {0.6f, 0.0f, 0.0f},
+                              .edge_v = {0.0f, 0.0f, 0.6f},
+                              .albedo = kGrey,
+                              .emission = glm::vec3(3000.0f),
+                              .double_sided = true});
+    scene.instances[first].name = "first";
+    scene.instances.back().name = "second";
+    const SolveScene world(std::move(scene), {.texels_per_metre = rooms.density});
+    SolverOptions options;
+    options.target_error = 0.1;
+    options.target_quality = {};
+    LinkRadiosity solver(world, LinksOptions{.per_lamp = true}, options.limits());
+    ASSERT_TRUE(lumel::solve(solver, options));
+    ASSERT_EQ(solver.lamps()->all.size(), 2u);
+    const auto lamps = solver.light_of_lamps();
+    const std::size_t of_first = solver.lamps()->all[0].name == "first" ? 0 : 1;
+    std::size_t lit = 0, count = 0;
+    for (const std::size_t i : in_second_room(world, rooms)) {
+        lit += lamps[of_first].irradiance[i] != glm::vec3(0.0f);
+        count += lamps[1 - of_first].irradiance[i] != glm::vec3(0.0f);
+    }
+    EXPECT_EQ(lit, 0u);
+    EXPECT_GT(count, 50u);
 }
 
 /// What is not known must not count as dark: few rays leave some parts of cut lumels without any,

@@ -31,7 +31,8 @@ std::string as_file_name(const std::string& name)
     std::string safe = name.substr(0, kLongestName);
     for (char& letter : safe) {
         const auto byte = static_cast<unsigned char>(letter);
-        const bool is_plain = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+        const bool is_plain = (letter >= 'a' && letter <= 'z') ||
+                              (letter >= 'A' && letter <= 'Z') ||
                               (letter >= '0' && letter <= '9') || letter == '-' || letter == '_';
         if (!is_plain && byte < 0x80)
             letter = '_';
@@ -106,11 +107,11 @@ std::vector<Image> lamp_maps(const SolveScene& prepared, std::span<const glm::ve
     return std::move(finished.layers);
 }
 
-std::vector<std::string> lamp_map_names(const std::vector<Lamp>& lamps)
+std::vector<std::string> lamp_map_names(const std::vector<NamedLamp>& lamps)
 {
     std::set<std::string> taken;
     std::vector<std::string> names;
-    for (const Lamp& lamp : lamps) {
+    for (const NamedLamp& lamp : lamps) {
         const std::string plain = kLampPrefix + as_file_name(lamp.name);
         std::string name = plain;
         for (int number = 2; !taken.insert(name).second; ++number)
@@ -122,8 +123,8 @@ std::vector<std::string> lamp_map_names(const std::vector<Lamp>& lamps)
 
 std::vector<std::string> write_lamps(const OutputFolder& folder, const BakeOptions& options,
                                      const SolveScene& prepared,
-                                     std::span<const glm::vec3> irradiance,
-                                     const LampLights& lamps, Stages& stages)
+                                     std::span<const glm::vec3> irradiance, const LampLights& lamps,
+                                     Stages& stages)
 {
     const std::vector<Image> maps = lamp_maps(prepared, irradiance, lamps.light);
     const std::vector<std::string> names = lamp_map_names(lamps.lamps);
@@ -131,7 +132,7 @@ std::vector<std::string> write_lamps(const OutputFolder& folder, const BakeOptio
     std::vector<std::string> files;
     Json rows = Json::array();
     for (std::size_t k = 0; k < maps.size(); ++k) {
-        const Lamp& lamp = lamps.lamps[k];
+        const NamedLamp& lamp = lamps.lamps[k];
         for (int page = 0; page < pages.count; ++page) {
             files.push_back(page_name(pages, page, names[k]) + ".exr");
             write_exr(folder.path(files.back()), cut_page(pages, page, maps[k]),
@@ -151,8 +152,7 @@ std::vector<std::string> write_lamps(const OutputFolder& folder, const BakeOptio
                         {"error", lamps.light[k].error},
                         {"map", page_name(pages, 0, names[k]) + ".exr"}});
     }
-    const Image whole =
-        finish_map(prepared.scene, prepared.atlas, prepared.lumels, irradiance);
+    const Image whole = finish_map(prepared.scene, prepared.atlas, prepared.lumels, irradiance);
     const double apart = error_of_sum(whole, maps);
     write_json(folder.path(kLampsFile), {{"lamps", rows}, {"sum_error", apart}});
     files.emplace_back(kLampsFile);

@@ -14,7 +14,7 @@ namespace lumel {
 
 /// Lamps with the light of each.
 struct LampLights {
-    std::vector<Lamp> lamps;
+    std::vector<NamedLamp> lamps;
     std::vector<LinkRadiosity::LampLight> light;  ///< [lamps]
 };
 
@@ -27,13 +27,13 @@ std::vector<Image> lamp_maps(const SolveScene& prepared, std::span<const glm::ve
 
 /// Names of the lamps' maps, without pages and ending: "lamp-" and the lamp's name, as far as files
 /// can have it.
-std::vector<std::string> lamp_map_names(const std::vector<Lamp>& lamps);
+std::vector<std::string> lamp_map_names(const std::vector<NamedLamp>& lamps);
 
 /// Writes the maps and lamps.json. Returns the names of the files.
 std::vector<std::string> write_lamps(const OutputFolder& folder, const BakeOptions& options,
                                      const SolveScene& prepared,
-                                     std::span<const glm::vec3> irradiance,
-                                     const LampLights& lamps, Stages& stages);
+                                     std::span<const glm::vec3> irradiance, const LampLights& lamps,
+                                     Stages& stages);
 
 /// Removes maps of lamps of an earlier bake from the folder `target`.
 void outdate_lamps(OutputFolder& folder, const std::string& target);

@@ -137,8 +137,8 @@ std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool
         options.preview_width > 0
             ? sizes.preview.host + (shared ? sizes.preview.device + kCompilerBytes : 0)
             : 0;
-    const std::uint64_t writing = sizes.picture + writing_bytes(sizes, layers) +
-                                  sizes.lamps * sizes.texels * kOfTexel;
+    const std::uint64_t writing =
+        sizes.picture + writing_bytes(sizes, layers) + sizes.lamps * sizes.texels * kOfTexel;
     return std::max(
         {solving, maps + std::max({sizes.finish, drawing, writing}), kept_bytes(sizes, options)});
 }
@@ -151,8 +151,7 @@ void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& optio
                         LumelRowsBuilder::host_bytes(lumels, matrix->transport.patches);
     if (!uses_links(options))
         return;
-    memory.solver =
-        LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels, sizes.lamps);
+    memory.solver = LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels, sizes.lamps);
     memory.links = bytes_of_links(lumels, options.solver);
     memory.first_links =
         LinkRadiosity::first_bytes(lumels, std::get<LinksOptions>(options.solver.method).even_rays);

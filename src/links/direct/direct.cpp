@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "atlas/cells/lumel_samples.h"
 #include "base/core/luminance.h"
@@ -118,7 +119,7 @@ struct DirectEstimator::Choice {
 };
 
 DirectEstimator::DirectEstimator(const LinkWork& work, std::uint32_t seed, const SubLumels* parts,
-                                 const Lamps* lamps)
+                                 const LampTable* lamps)
     : work_(work),
       seed_(seed),
       parts_(parts),
@@ -424,23 +425,25 @@ void DirectEstimator::keep_by_cell(std::uint32_t i, const Found& found, float be
             result[c] = before * light_before(c) + (1.0f - before) * cells[c];
         return result;
     };
-    const OfCells cells =
-        mixed(found.light.cells, [&](std::uint32_t c) { return at(i, c); });
+    const OfCells cells = mixed(found.light.cells, [&](std::uint32_t c) { return at(i, c); });
     const bool any = differ(cells);
     if (any) {
         block.light.lumel.push_back(i);
-        block.light.cells.push_back(cells);
+        block.light.cells.insert(block.light.cells.end(), cells.begin(), cells.end());
     }
     if (lamps_ == 0 || (!any && !is_cut(i)))
         return;
     std::vector<OfCells> of_lamps;
     for (std::size_t lamp = 0; lamp < lamps_; ++lamp)
-        of_lamps.push_back(mixed(found.of_lamps[lamp].cells,
-                                 [&](std::uint32_t c) { return lamp_at(i, c, lamp); }));
+        of_lamps.push_back(mixed(found.of_lamps[lamp].cells, [&](std::uint32_t c) {
+            return varies_by_lamp(i) ? lamps_in(i, c)[lamp] : mean_of_lamp(i, lamp);
+        }));
     if (!any && std::ranges::none_of(of_lamps, differ))
         return;
     block.of_lamps.lumel.push_back(i);
-    block.of_lamps.cells.insert(block.of_lamps.cells.end(), of_lamps.begin(), of_lamps.end());
+    for (std::size_t c = 0; c < std::size_t(kCells); ++c)
+        for (const OfCells& cells_of_lamp : of_lamps)
+            block.of_lamps.cells.push_back(cells_of_lamp[c]);
 }
 
 /// Stores the results of lumel i: the mean over its passes of many rays, weighted by rays.
@@ -467,14 +470,14 @@ void DirectEstimator::keep(std::uint32_t i, const Found& found, Block& block)
 bool DirectEstimator::ByCell::fits(std::size_t lumels) const
 {
     const auto has_cells = [&](std::uint32_t at) {
-        return at == kSame || (at + std::size_t(1)) * kinds <= cells.size();
+        return at == kSame || (at + std::size_t(1)) * size() <= cells.size();
     };
     return index.size() == lumels && std::ranges::all_of(index, has_cells);
 }
 
 bool DirectEstimator::FoundCells::fits(std::size_t lumels, std::size_t kinds) const
 {
-    return cells.size() == kinds * lumel.size() &&
+    return cells.size() == kCells * kinds * lumel.size() &&
            std::ranges::all_of(lumel, [&](std::uint32_t i) { return i < lumels; });
 }
 
@@ -673,11 +676,11 @@ void DirectEstimator::renew(ByCell& kept, FoundCells Block::*found, const Keeps&
         for (const std::uint32_t i : many_)
             again[i] = 1;
     ByCell next{kept.kinds, std::vector<std::uint32_t>(kept.index.size(), kSame), {}};
-    const auto keep = [&](std::uint32_t i, const OfCells* cells) {
+    const auto keep = [&](std::uint32_t i, const glm::vec3* cells) {
         if (!keeps(i, cells))
             return;
-        next.index[i] = std::uint32_t(next.cells.size() / next.kinds);
-        next.cells.insert(next.cells.end(), cells, cells + next.kinds);
+        next.index[i] = std::uint32_t(next.cells.size() / next.size());
+        next.cells.insert(next.cells.end(), cells, cells + next.size());
     };
     if (!first_pass_)
         for (std::uint32_t i = 0; i < kept.index.size(); ++i)
@@ -686,7 +689,7 @@ void DirectEstimator::renew(ByCell& kept, FoundCells Block::*found, const Keeps&
     for (const Block& block : blocks_) {
         const FoundCells& of_block = block.*found;
         for (std::size_t k = 0; k < of_block.lumel.size(); ++k)
-            keep(of_block.lumel[k], &of_block.cells[k * kept.kinds]);
+            keep(of_block.lumel[k], &of_block.cells[k * kept.size()]);
     }
     kept = std::move(next);
 }
@@ -695,15 +698,15 @@ void DirectEstimator::renew(ByCell& kept, FoundCells Block::*found, const Keeps&
 void DirectEstimator::keep_cells()
 {
     const double mean = mean_of_all();
-    renew(by_cell_, &Block::light, [&](std::uint32_t i, const OfCells* cells) {
+    renew(by_cell_, &Block::light, [&](std::uint32_t i, const glm::vec3* cells) {
         double most = 0.0;
-        for (const glm::vec3& cell : *cells)
+        for (const glm::vec3& cell : std::span(cells, kCells))
             most = std::max(most, luminance(cell));
         return most > double(kCounts) * mean || is_cut(i);
     });
     if (lamps_ > 0)
         renew(lamps_by_cell_, &Block::of_lamps,
-              [&](std::uint32_t i, const OfCells*) { return varies(i) || is_cut(i); });
+              [&](std::uint32_t i, const glm::vec3*) { return varies(i) || is_cut(i); });
     for (Block& block : blocks_) {
         rays_ += block.rays;
         block = {};

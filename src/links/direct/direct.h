@@ -25,7 +25,7 @@ public:
     /// The work must outlive this. parts: sub-lumels, across which no light passes, or null. lamps:
     /// whose light is kept apart too, by the same rays, or null.
     DirectEstimator(const LinkWork& work, std::uint32_t seed, const SubLumels* parts = nullptr,
-                    const Lamps* lamps = nullptr);
+                    const LampTable* lamps = nullptr);
 
     /// Memory [bytes]. varying: number of lumels stored per cell. lamps: kept apart.
     static std::uint64_t bytes(std::size_t lumels, std::size_t varying, std::size_t lamps);
@@ -46,7 +46,7 @@ public:
     /// Direct light of a cell: the lumel's mean unless it varies [lx].
     glm::vec3 at(std::size_t lumel, std::uint32_t cell) const
     {
-        return varies(lumel) ? by_cell_.of(lumel)[0][cell] : mean(lumel);
+        return varies(lumel) ? by_cell_.of(lumel)[cell] : mean(lumel);
     }
     /// Mean of both halves [lx] of the light of one lamp; the lamps' sum is mean().
     glm::vec3 mean_of_lamp(std::size_t lumel, std::size_t lamp) const
@@ -60,11 +60,10 @@ public:
         const std::size_t at = lumel * lamps_ + lamp;
         return lamp_half_[0][at] - lamp_half_[1][at];
     }
-    /// at() of one lamp.
-    glm::vec3 lamp_at(std::size_t lumel, std::uint32_t cell, std::size_t lamp) const
+    /// at() of each lamp [lamps]. Requires that their light is stored per cell.
+    const glm::vec3* lamps_in(std::size_t lumel, std::uint32_t cell) const
     {
-        return varies_by_lamp(lumel) ? lamps_by_cell_.of(lumel)[lamp][cell]
-                                     : mean_of_lamp(lumel, lamp);
+        return lamps_by_cell_.of(lumel) + cell * lamps_;
     }
     /// True if direct light is stored per cell.
     bool varies(std::size_t lumel) const { return by_cell_.index[lumel] != kSame; }
@@ -108,9 +107,10 @@ private:
     struct ByCell {
         std::size_t kinds;
         std::vector<std::uint32_t> index;  ///< [N] its place in `cells`, or kSame
-        std::vector<OfCells> cells;        ///< [places][kinds]
+        std::vector<glm::vec3> cells;      ///< [places][kCells][kinds]
 
-        const OfCells* of(std::size_t lumel) const { return &cells[index[lumel] * kinds]; }
+        std::size_t size() const { return kCells * kinds; }  ///< of a place
+        const glm::vec3* of(std::size_t lumel) const { return &cells[index[lumel] * size()]; }
         bool fits(std::size_t lumels) const;
         template <class Archive>
         void state(Archive& archive)
@@ -121,7 +121,7 @@ private:
     /// The same of some lumels, as a pass finds it.
     struct FoundCells {
         std::vector<std::uint32_t> lumel;
-        std::vector<OfCells> cells;  ///< [lumels][kinds]
+        std::vector<glm::vec3> cells;  ///< [lumels][kCells][kinds]
 
         bool fits(std::size_t lumels, std::size_t kinds) const;
         template <class Archive>
@@ -176,15 +176,15 @@ private:
     const LinkWork& work_;
     std::uint32_t seed_;
     const SubLumels* parts_;
-    const Lamps* of_lamps_;  ///< null: light of lamps is not kept apart
+    const LampTable* of_lamps_;  ///< null: light of lamps is not kept apart
     const std::size_t lamps_;
     std::vector<glm::vec3> half_[2];
     std::vector<glm::vec3> lamp_half_[2];  ///< [N][lamps]
-    std::vector<std::uint32_t> taken_;    ///< [N] rays of one half per source in later passes
-    std::vector<std::uint32_t> more_;     ///< [N] rays that this pass adds
-    std::vector<std::uint32_t> seen_;     ///< [N] bit s: a source ≡ s (mod 32) is visible
-    std::vector<char> uncertain_;         ///< [N]
-    std::vector<std::uint32_t> many_;     ///< lumels of this pass
+    std::vector<std::uint32_t> taken_;     ///< [N] rays of one half per source in later passes
+    std::vector<std::uint32_t> more_;      ///< [N] rays that this pass adds
+    std::vector<std::uint32_t> seen_;      ///< [N] bit s: a source ≡ s (mod 32) is visible
+    std::vector<char> uncertain_;          ///< [N]
+    std::vector<std::uint32_t> many_;      ///< lumels of this pass
     ByCell by_cell_, lamps_by_cell_;
     std::vector<Block> blocks_;
     std::size_t done_ = 0;  ///< blocks of this pass

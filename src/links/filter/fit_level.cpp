@@ -446,18 +446,18 @@ std::vector<FitLight<Count>> fitted_light(const FilterChart& chart, const FitLev
 
 template struct FitLevel<2>;
 template struct FitLevel<3>;
-template struct FitLevel<4>;
+template struct FitLevel<8>;
 template FitLevel<2> finest_level(const FilterChart&, const std::array<const Estimates*, 2>&);
 template FitLevel<3> finest_level(const FilterChart&, const std::array<const Estimates*, 3>&);
-template FitLevel<4> finest_level(const FilterChart&, const std::array<const Estimates*, 4>&);
+template FitLevel<8> finest_level(const FilterChart&, const std::array<const Estimates*, 8>&);
 template FitLevel<2> coarser_level(const FitLevel<2>&);
 template FitLevel<3> coarser_level(const FitLevel<3>&);
-template FitLevel<4> coarser_level(const FitLevel<4>&);
+template FitLevel<8> coarser_level(const FitLevel<8>&);
 template std::vector<FitLight<2>> fitted_light(const FilterChart&, const FitLevel<2>&,
                                                const std::vector<FitLight<2>>&);
 template std::vector<FitLight<3>> fitted_light(const FilterChart&, const FitLevel<3>&,
                                                const std::vector<FitLight<3>>&);
-template std::vector<FitLight<4>> fitted_light(const FilterChart&, const FitLevel<4>&,
-                                               const std::vector<FitLight<4>>&);
+template std::vector<FitLight<8>> fitted_light(const FilterChart&, const FitLevel<8>&,
+                                               const std::vector<FitLight<8>>&);
 
 }  // namespace lumel

@@ -262,8 +262,7 @@ Filtered<Count> filter_chart(const FilterChart& chart,
 {
     PyramidGains used(rule.caution.size(), std::vector<float>(chart.lumel.size(), 0.0f));
     const auto find_gains =
-        [&](std::size_t l, const FitLevel<Count>& level,
-            const std::vector<FitLight<Count>>& fitted,
+        [&](std::size_t l, const FitLevel<Count>& level, const std::vector<FitLight<Count>>& fitted,
             const std::vector<FitLight<Count>>& detail) -> const std::vector<float>& {
         const std::vector<float> gains =
             gains_of(chart, level, fitted, detail, rule, rule.caution[l]);

@@ -61,7 +61,7 @@ Filtered<Count> filter_chart(const FilterChart& chart,
 
 /// Other light, of up to this many kinds at once, filtered by the gains that filter_chart found:
 /// parts of a light so filtered add up to the filtered light.
-inline constexpr std::size_t kFilteredTogether = 4;
+inline constexpr std::size_t kFilteredTogether = 8;
 std::vector<FitLight<kFilteredTogether>>
 filter_chart_by(const PyramidGains& gains, const FilterChart& chart,
                 const std::array<const Estimates*, kFilteredTogether>& found);

@@ -71,8 +71,7 @@ std::size_t LinkTable::bytes() const
             bytes += block.rays.size() * sizeof(std::uint16_t) +
                      block.ends.size() * sizeof(LinkEnd) + block.from.size() +
                      block.probabilities.size() * sizeof(std::uint16_t) +
-                     block.near.size() * sizeof(NearLink) +
-                     block.shares.size() * sizeof(NearShare);
+                     block.near.size() * sizeof(NearLink) + block.shares.size() * sizeof(NearShare);
     return bytes;
 }
 

@@ -119,8 +119,8 @@ struct LinkRow {
     std::span<const LinkEnd> ends;
     const std::uint8_t* from;  ///< [ends] cells, or null for lumels that are not cut
     std::span<const NearLink> near;
-    std::span<const NearShare> shares;  ///< of these
-    std::uint32_t first_near;           ///< index of the first in its block
+    std::span<const NearShare> shares;   ///< of these
+    std::uint32_t first_near;            ///< index of the first in its block
     const std::uint16_t* probabilities;  ///< [ends] or null: all are equal
 
     /// Weight of ray k, as which its light counts; 1 on average.

@@ -1,6 +1,6 @@
-// LinkRadiosity's light of each lamp. Light is linear in its sources: the links serve all lamps, and
-// only direct light, source term and sweeps are a lamp's own. The filter has the gains of the whole
-// light, so that the lamps add up to it.
+// LinkRadiosity's light of each lamp. Light is linear in its sources: the links serve all lamps,
+// and only direct light, source term and sweeps are a lamp's own. The filter has the gains of the
+// whole light, so that the lamps add up to it.
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,8 @@ namespace lumel {
 namespace {
 
 constexpr std::size_t kLumelsPerTask = 4096;
+/// Least residual of a lamp's sweeps: what they leave out is made good by the exact sum.
+constexpr double kLampResidual = 3e-3;
 
 /// Of the filtered light, variance and squared bias left of each lumel's variance [N].
 std::vector<double> error_left(const ChartFilter* filter, const Mean& plain, const Mean& filtered)
@@ -59,11 +61,20 @@ void LinkRadiosity::drop_round_in_progress()
 LinkRadiosity::LampSolutions LinkRadiosity::solve_lamps(const LampsReflected& reflected)
 {
     LampSolutions found;
-    std::vector<glm::vec3> received;
+    std::vector<glm::vec3> received, bounced;
     for (std::size_t k = 0; k < kSolutions; ++k) {
         const SourceTerm source =
             find_source_term(work_, *parts_, *numbers_, reflected, *links_[k]);
-        solver_->solve_lamps(*links_[k], source, sweep_residual(), received);
+        // The links of one solution tell what surfaces send, a gather along those of each what
+        // arrives.
+        if (k == 0) {
+            solver_->solve_lamps(*links_[k], source, std::max(sweep_residual(), kLampResidual),
+                                 bounced);
+            received = bounced;
+        } else {
+            received = bounced;
+            solver_->gather_lamps(*links_[k], source, received);
+        }
         std::vector<glm::vec3>& light = found.light[k];
         light.assign(work_.lumels().size() * kLampLanes, glm::vec3(0.0f));
         parallel_for(work_.lumels().size(), kLumelsPerTask, [&](std::size_t from, std::size_t to) {

@@ -84,10 +84,9 @@ LinkRadiosity::LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters,
       most_bytes_(limits.max_bytes),
       parts_wanted_(parts),
       work_(scene, std::move(casters), options.rule, order_in_space),
-      lamps_(options.per_lamp
-                 ? std::optional(
-                       find_lamps(scene.scene, scene.lumels, work_.sources, options.groups))
-                 : std::nullopt)
+      lamps_(options.per_lamp ? std::optional(find_lamps(scene.scene, scene.lumels, work_.sources,
+                                                         options.groups))
+                              : std::nullopt)
 {
 }
 

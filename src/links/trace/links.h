@@ -93,7 +93,7 @@ public:
         double error = 0.0;                 ///< estimated, relative to its own light
     };
     /// Lamps that are kept apart, or null.
-    const Lamps* lamps() const { return lamps_ ? &*lamps_ : nullptr; }
+    const LampTable* lamps() const { return lamps_ ? &*lamps_ : nullptr; }
     /// The light of each lamp, whose sum is irradiance(). Ends the solution: a round in progress is
     /// dropped. Call it once.
     std::vector<LampLight> light_of_lamps();
@@ -210,7 +210,7 @@ private:
     Then then_ = Then::add;
     LinkChanges changes_;                  ///< since the links were stored
     std::vector<std::size_t> first_rays_;  ///< of the stored round, see first_rays()
-    const std::optional<Lamps> lamps_;
+    const std::optional<LampTable> lamps_;
     std::optional<SubLumels> parts_;
     std::optional<LinkNumbers> numbers_;
     std::optional<DirectEstimator> direct_;
@@ -224,8 +224,8 @@ private:
     std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] without direct light
     /// [P] LinkTable::sky at the last sweeps; empty unless lamps are kept apart.
     std::array<std::vector<glm::vec3>, kSolutions> swept_sky_;
-    Mean mean_;                                                ///< filtered mean of solutions
-    Mean direct_mean_;                                         ///< filtered mean of direct light
+    Mean mean_;         ///< filtered mean of solutions
+    Mean direct_mean_;  ///< filtered mean of direct light
     Stage stage_ = Stage::begin;
     std::uint32_t round_ = 0;          ///< current round
     double mean_rays_ = 0.0;           ///< per lumel in the round, in each solution

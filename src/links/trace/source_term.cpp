@@ -77,7 +77,7 @@ glm::vec3 ReflectedLight::of_cell(LinkEnd end) const
 
 LampsReflected::LampsReflected(const LinkWork& work, const SubLumels& parts,
                                const LinkNumbers& numbers, const DirectEstimator& direct,
-                               const Lamps& lamps, std::size_t first)
+                               const LampTable& lamps, std::size_t first)
     : work_(work),
       parts_(parts),
       numbers_(numbers),
@@ -85,40 +85,40 @@ LampsReflected::LampsReflected(const LinkWork& work, const SubLumels& parts,
       lamps_(lamps),
       first_(first),
       count_(std::min(kLampLanes, lamps.all.size() - first)),
-      of_lumel_(work.lumels().size(), LaneLight<kLampLanes>{})
+      of_number_(numbers.count(), LaneLight<kLampLanes>{})
 {
-    parallel_for(of_lumel_.size(), kSourcesPerTask, [&](std::size_t from, std::size_t to) {
-        for (std::size_t i = from; i < to; ++i)
+    parallel_for(work.lumels().size(), kSourcesPerTask, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+            LaneLight<kLampLanes> light{};
             for (std::size_t lane = 0; lane < count_; ++lane)
-                of_lumel_[i][lane] = glm::vec4(
-                    work.lumels()[i].albedo * direct.mean_of_lamp(i, first + lane), 0.0f);
+                light[lane] =
+                    glm::vec4(work.lumels()[i].albedo * direct.mean_of_lamp(i, first + lane), 0.0f);
+            light[0].w = direct.varies_by_lamp(i) ? kVaries : 0.0f;
+            std::fill(of_number_.begin() + numbers.of_part(parts.first(i)),
+                      of_number_.begin() + numbers.of_part(parts.end(i)), light);
+        }
     });
 }
 
-LaneLight<kLampLanes> LampsReflected::at(LinkEnd end) const
+const LaneLight<kLampLanes>& LampsReflected::find_of_cell(LinkEnd end,
+                                                          LaneLight<kLampLanes>& light) const
 {
-    if (!numbers_.is_part(end.number()))
-        return {};
     const std::uint32_t lumel = parts_.lumel(numbers_.part(end.number()));
-    if (!direct_.varies_by_lamp(lumel))
-        return of_lumel_[lumel];
-    LaneLight<kLampLanes> light{};
+    const glm::vec3* const lamps = direct_.lamps_in(lumel, end.cell()) + first_;
     for (std::size_t lane = 0; lane < count_; ++lane)
-        light[lane] = glm::vec4(work_.lumels()[lumel].albedo *
-                                    direct_.lamp_at(lumel, end.cell(), first_ + lane),
-                                0.0f);
+        light[lane] = glm::vec4(work_.lumels()[lumel].albedo * lamps[lane], 0.0f);
     return light;
 }
 
 LaneLight<kLampLanes> LampsReflected::near(std::span<const NearShare> shares,
                                            std::uint32_t index) const
 {
-    LaneLight<kLampLanes> sum{};
+    LaneLight<kLampLanes> sum{}, of_cells{};
     for (const NearShare& share : shares) {
         if (share.near != index)
             continue;
         if (share.lamp == NearShare::kEveryLamp) {
-            const LaneLight<kLampLanes> light = at(share.at);
+            const LaneLight<kLampLanes>& light = at(share.at, of_cells);
             for (std::size_t lane = 0; lane < count_; ++lane)
                 sum[lane] += glm::vec4(share.light, 0.0f) * light[lane];
         } else if (has(share.lamp)) {
@@ -142,7 +142,11 @@ namespace {
 struct AllReflected {
     const ReflectedLight& reflected;
 
-    LaneLight<1> at(LinkEnd end) const { return {glm::vec4(reflected.at(end), 0.0f)}; }
+    const LaneLight<1>& at(LinkEnd end, LaneLight<1>& light) const
+    {
+        light[0] = glm::vec4(reflected.at(end), 0.0f);
+        return light;
+    }
     LaneLight<1> of_sky(const glm::vec3& light) const { return {glm::vec4(light, 0.0f)}; }
 };
 
@@ -173,12 +177,12 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
         };
         std::array<Count, kMaxParts> counts;
         auto near = row.near.begin();
+        LaneLight<Lanes> found{};
         for (std::size_t k = 0; k < row.ends.size(); ++k) {
             const std::uint32_t leaves = row.leaves(parts, i, k);
             const float weight = row.weight(k);
             LinkEnd end = row.ends[k];
-            const NearLink* const is_near =
-                end.number() == LinkNumbers::kNear ? &*near++ : nullptr;
+            const NearLink* const is_near = end.number() == LinkNumbers::kNear ? &*near++ : nullptr;
             if (is_near)
                 end = is_near->end;
             if (end.number() == numbers.hidden() ||
@@ -194,10 +198,12 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
             }
             counts[leaves].rays += 1.0f;
             counts[leaves].weights += weight;
-            const LaneLight<Lanes> light =
-                is_near ? near_light(reflected, row, *is_near) : reflected.at(end);
+            if (is_near)
+                found = near_light(reflected, row, *is_near);
+            const LaneLight<Lanes>& light = is_near ? found : reflected.at(end, found);
             for (std::size_t lane = 0; lane < Lanes; ++lane)
-                sum.light[(first + leaves) * Lanes + lane] += weight * light[lane];
+                sum.light[(first + leaves) * Lanes + lane] +=
+                    glm::vec4(weight * glm::vec3(light[lane]), 0.0f);
         }
         for (std::uint32_t p = first; p < parts.end(i); ++p) {
             const Count& count = counts[p - first];

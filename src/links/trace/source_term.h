@@ -61,24 +61,32 @@ class LampsReflected {
 public:
     /// first: of kLampLanes lamps of `lamps`; those beyond the last are dark.
     LampsReflected(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-                   const DirectEstimator& direct, const Lamps& lamps, std::size_t first);
+                   const DirectEstimator& direct, const LampTable& lamps, std::size_t first);
 
-    LaneLight<kLampLanes> at(LinkEnd end) const;
+    const LaneLight<kLampLanes>& at(LinkEnd end, LaneLight<kLampLanes>& of_cells) const
+    {
+        const LaneLight<kLampLanes>& light = of_number_[end.number()];
+        return light[0].w == kVaries ? find_of_cell(end, of_cells) : light;
+    }
     /// Gathered by a near link [lx]. shares: of its row.
     LaneLight<kLampLanes> near(std::span<const NearShare> shares, std::uint32_t index) const;
     /// The sky's light in the lane of its lamp.
     LaneLight<kLampLanes> of_sky(const glm::vec3& light) const;
 
 private:
+    static constexpr float kVaries = 1.0f;
+
+    const LaneLight<kLampLanes>& find_of_cell(LinkEnd end, LaneLight<kLampLanes>& light) const;
     bool has(std::size_t lamp) const { return lamp >= first_ && lamp < first_ + kLampLanes; }
 
     const LinkWork& work_;
     const SubLumels& parts_;
     const LinkNumbers& numbers_;
     const DirectEstimator& direct_;
-    const Lamps& lamps_;
+    const LampTable& lamps_;
     std::size_t first_, count_;
-    std::vector<LaneLight<kLampLanes>> of_lumel_;  ///< [N]
+    std::vector<LaneLight<kLampLanes>> of_number_;  ///< [numbers] w of the first: kVaries if cells
+                                                    ///< differ
 };
 
 SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,

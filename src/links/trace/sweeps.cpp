@@ -202,15 +202,16 @@ private:
     {
         const std::vector<glm::dvec3> none(size_, glm::dvec3(0.0));
         std::vector<Means> sums(kSums, {none, none});
-        for_each_span(
-            area_of_part_.size(), [&](std::size_t s, std::size_t first, std::size_t last) {
-                for (std::size_t p = first; p < last; ++p) {
-                    const std::uint32_t n = solver_.numbers_.of_part(std::uint32_t(p));
-                    const double area = double(area_of_part_[p]);
-                    sums[s].change[solver_.group_[p]] += area * glm::dvec3(now[n][lane] - before[n][lane]);
-                    sums[s].light[solver_.group_[p]] += area * glm::dvec3(now[n][lane]);
-                }
-            });
+        for_each_span(area_of_part_.size(),
+                      [&](std::size_t s, std::size_t first, std::size_t last) {
+                          for (std::size_t p = first; p < last; ++p) {
+                              const std::uint32_t n = solver_.numbers_.of_part(std::uint32_t(p));
+                              const double area = double(area_of_part_[p]);
+                              sums[s].change[solver_.group_[p]] +=
+                                  area * glm::dvec3(now[n][lane] - before[n][lane]);
+                              sums[s].light[solver_.group_[p]] += area * glm::dvec3(now[n][lane]);
+                          }
+                      });
         Means means{none, none};
         for (std::uint32_t g = 0; g < size_; ++g) {
             for (const Means& one : sums) {
@@ -379,15 +380,13 @@ public:
                 // Changes that shrink by a factor q leave q / (1 - q) of the last as residual. The
                 // first change does not: it is all light in the first round, and noise of new rays
                 // in later ones.
-                const double factor =
-                    std::min(before[lane] > 0.0 ? size / before[lane] : kSlowestSweep,
-                             kSlowestSweep);
+                const double factor = std::min(
+                    before[lane] > 0.0 ? size / before[lane] : kSlowestSweep, kSlowestSweep);
                 const double to_come = groups && size > 0.0
                                            ? size + groups->correct(sent_, next_, lane)
                                            : size * factor / (1.0 - factor);
                 before[lane] = size;
-                is_done = is_done &&
-                          (size == 0.0 || (sweep > kFirstSweeps && to_come < residual));
+                is_done = is_done && (size == 0.0 || (sweep > kFirstSweeps && to_come < residual));
             }
             sent_.swap(next_);
             if (is_done)
@@ -398,6 +397,8 @@ public:
                 groups.emplace(solver_, system_);
         }
     }
+
+    void run_once() { sweep_all(); }
 
 private:
     void find_floors()
@@ -494,6 +495,13 @@ void LinkSolver::solve_lamps(const LinkTable& links, const SourceTerm& source, d
     received.assign(parts_.count() * kLampLanes, glm::vec3(0.0f));
     const System system{links, source};
     Sweeps<kLampLanes>(*this, system, received).run(residual);
+}
+
+void LinkSolver::gather_lamps(const LinkTable& links, const SourceTerm& source,
+                              std::vector<glm::vec3>& received) const
+{
+    const System system{links, source};
+    Sweeps<kLampLanes>(*this, system, received).run_once();
 }
 
 }  // namespace lumel

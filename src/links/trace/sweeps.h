@@ -32,6 +32,9 @@ public:
     /// X [P][kLampLanes] of a few lamps at once, from darkness; source: of these.
     void solve_lamps(const LinkTable& links, const SourceTerm& source, double residual,
                      std::vector<glm::vec3>& received) const;
+    /// The same by one sweep, from the X of other links.
+    void gather_lamps(const LinkTable& links, const SourceTerm& source,
+                      std::vector<glm::vec3>& received) const;
 
 private:
     class Groups;

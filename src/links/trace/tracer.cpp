@@ -95,7 +95,7 @@ struct LinkTracer::RayBatch {
     std::vector<std::uint8_t> from;            ///< [slots] cells that the rays leave
     std::vector<std::uint16_t> probabilities;  ///< [slots] of guided directions
     std::vector<SkyRay> sky;
-    std::vector<Path> paths;         ///< by slot
+    std::vector<Path> paths;        ///< by slot
     std::vector<PathShare> shares;  ///< of paths; empty unless lamps are kept apart
 
     // Rays that have not ended.
@@ -137,7 +137,7 @@ struct LinkTracer::RayBatch {
 };
 
 LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-                       const DirectEstimator& direct, std::uint32_t seed, const Lamps* lamps)
+                       const DirectEstimator& direct, std::uint32_t seed, const LampTable* lamps)
     : work_(work),
       parts_(parts),
       numbers_(numbers),
@@ -379,8 +379,7 @@ void LinkTracer::meet_first(RayBatch& wave) const
 /// Adds the light of the sky at the end of a path.
 void LinkTracer::add_sky(RayBatch& wave, std::uint32_t path, const RaySpan& ray) const
 {
-    const glm::vec3 light =
-        wave.paths[path].weight * kPi * work_.sources.dim_sky(ray.direction);
+    const glm::vec3 light = wave.paths[path].weight * kPi * work_.sources.dim_sky(ray.direction);
     wave.paths[path].light += light;
     if (lamps_)
         wave.shares.push_back({path, lamps_->of_dim_sky, {}, light});
@@ -527,9 +526,11 @@ void LinkTracer::end_or_reflect(RayBatch& wave, int reflections) const
         const std::uint32_t first = n * direct_.looks_around();
         path.light += path.weight * direct_.light_of(wave.looks, first);
         for (std::uint32_t look = first; lamps_ && look < first + direct_.looks_around(); ++look)
-            wave.shares.push_back(
-                {wave.looking[n], lamps_->of_source[wave.looks.sample(look).source], {},
-                 path.weight * wave.looks.transmittance(look) * wave.looks.sample(look).irradiance});
+            wave.shares.push_back({wave.looking[n],
+                                   lamps_->of_source[wave.looks.sample(look).source],
+                                   {},
+                                   path.weight * wave.looks.transmittance(look) *
+                                       wave.looks.sample(look).irradiance});
     }
     wave.rays.swap(wave.next_rays);
     wave.of.swap(wave.next_of);
@@ -586,8 +587,8 @@ void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
                    share->path == std::uint32_t(path - wave.paths.begin());
                  ++share)
                 if (is_near)
-                    block.shares.push_back({std::uint32_t(block.near.size()), share->lamp,
-                                            share->at, share->light});
+                    block.shares.push_back(
+                        {std::uint32_t(block.near.size()), share->lamp, share->at, share->light});
             if (is_near)
                 block.near.push_back({in_block(path->slot), path->end,
                                       glm::packF3x9_E1x5(path->weight), path->distance,

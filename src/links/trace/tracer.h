@@ -30,7 +30,7 @@ class LinkTracer {
 public:
     /// All arguments must outlive this. lamps: whose light is kept apart, or null.
     LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-               const DirectEstimator& direct, std::uint32_t seed, const Lamps* lamps = nullptr);
+               const DirectEstimator& direct, std::uint32_t seed, const LampTable* lamps = nullptr);
 
     std::size_t blocks() const { return (work_.order.size() + kLinkBlock - 1) / kLinkBlock; }
 
@@ -92,7 +92,7 @@ private:
     const DirectEstimator& direct_;
     NearLumels hits_;
     std::uint32_t seed_;
-    const Lamps* lamps_;
+    const LampTable* lamps_;
     float margin_;  ///< [m] of boxes
 };
 

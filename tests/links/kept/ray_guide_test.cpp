@@ -140,9 +140,9 @@ TEST(RayGuide, UnevenRaysBringTheSameLight)
         LinkTable links(parts.count());
         links.rounds.emplace_back(tracer.blocks());
         tracer.trace(0, tracer.blocks(), {each, kLinkStream, nullptr, by}, links);
-        EXPECT_TRUE(links.fits(work.order, parts, numbers, tracer.blocks()));
-        const SourceTerm source =
-            find_source_term(work, parts, numbers, {work, parts, numbers, direct}, links);
+        EXPECT_TRUE(links.fits(work.order, parts, numbers, tracer.blocks(), 0));
+        const SourceTerm source = find_source_term(
+            work, parts, numbers, ReflectedLight(work, parts, numbers, direct), links);
         glm::dvec3 sum(0.0);
         for (std::uint32_t p = 0; p < parts.count(); ++p)
             if (source.rays[p] > 0.0f)
