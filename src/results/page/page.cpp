@@ -15,6 +15,8 @@
 #include "base/json/json_file.h"
 #include "results/files/folder.h"
 #include "results/files/glb_builder.h"
+#include "results/page/half_map.h"
+#include "results/page/lamp_list.h"
 #include "results/page/packed_text.h"
 #include "results/page/viewer.h"
 #include "results/record/bake_record.h"
@@ -49,12 +51,12 @@ std::vector<std::uint8_t> without_lightmap(const std::string& path)
     return builder.finish();
 }
 
-/// All pages of a lightmap, arranged as in Pages.
-Image whole_map(const std::string& folder, const Pages& pages)
+/// All pages of a map, arranged as in Pages.
+Image whole_map(const std::string& folder, const Pages& pages, const std::string& name)
 {
     Image map;
     for (int page = 0; page < pages.count; ++page) {
-        const std::string file = page_name(pages, page, kLightmapName) + ".exr";
+        const std::string file = page_name(pages, page, name) + ".exr";
         const Image part = read_exr((fs::path(folder) / file).string());
         if (pages.count == 1)
             return part;
@@ -108,23 +110,30 @@ int pages_in(const std::optional<JsonView>& sizes)
     return pages ? int(pages->integer(1, kMaxPages)) : 1;
 }
 
-/// Data for viewer/bakes.js.
-Json page_data(const std::string& folder, const std::string& name)
+/// Data for viewer/lamp_map.js: the lamps, and the maps of all as text. width, height: of the
+/// lightmap.
+Json lamps_data(const std::string& folder, const Pages& pages, int width, int height)
 {
-    const auto in_folder = [&](const char* file) { return (fs::path(folder) / file).string(); };
-    const Json report = read_json(in_folder(kReportFile));
-    const Pages pages{pages_in(JsonView(folder, report).find("sizes")), 0};
-    Image map = whole_map(folder, pages);
-    const std::vector<std::uint8_t> errors = error_bytes(in_folder(kSolutionFile), map);
-    const auto [lightmap, unit] = small_lightmap(std::move(map));
-    return {{"name", name},
-            {"report", report},
-            {"pages_across", pages.across()},
-            {"glb", packed_text(without_lightmap(in_folder(kSceneFile)))},
-            {"lightmap", packed_text(lightmap)},
-            {"unit", shortest(unit)},
-            {"errors", packed_text(errors)},
-            {"least_error", shortest(kLeastError)}};
+    const std::string file = (fs::path(folder) / kLampsFile).string();
+    const Json document = read_json(file);
+    Json list = Json::array();
+    std::vector<std::uint8_t> bytes;
+    for (const ListedLamp& lamp : lamps_of(JsonView(file, document), pages.count)) {
+        const Image map = whole_map(folder, pages, lamp.map);
+        if (map.width != width || map.height != height)
+            throw Error(ErrorKind::input, (fs::path(folder) / lamp.map).string(),
+                        "has another size than the lightmap");
+        const HalfMap coded = half_map(map);
+        bytes.insert(bytes.end(), coded.bytes.begin(), coded.bytes.end());
+        list.push_back({{"name", lamp.name},
+                        {"kind", lamp.kind},
+                        {"members", lamp.members},
+                        {"color", json_array(lamp.color)},
+                        {"brightest", shortest(coded.brightest)}});
+        if (lamp.error)
+            list.back()["error"] = *lamp.error;
+    }
+    return {{"list", list}, {"maps", packed_text(bytes)}};
 }
 
 /// Names of the bakes: their folders' names, or their paths if these are equal.
@@ -164,6 +173,28 @@ void check_viewer()
         throw Error(ErrorKind::input, "",
                     "this lumel was built without three.js, which its pages need; run tools/web "
                     "with access to npm packages, and build again");
+}
+
+Json page_data(const std::string& folder, const std::string& name)
+{
+    const auto in_folder = [&](const char* file) { return (fs::path(folder) / file).string(); };
+    const Json report = read_json(in_folder(kReportFile));
+    const Pages pages{pages_in(JsonView(folder, report).find("sizes")), 0};
+    Image map = whole_map(folder, pages, kLightmapName);
+    const int width = map.width, height = map.height;
+    const std::vector<std::uint8_t> errors = error_bytes(in_folder(kSolutionFile), map);
+    const auto [lightmap, unit] = small_lightmap(std::move(map));
+    Json data = {{"name", name},
+                 {"report", report},
+                 {"pages_across", pages.across()},
+                 {"glb", packed_text(without_lightmap(in_folder(kSceneFile)))},
+                 {"lightmap", packed_text(lightmap)},
+                 {"unit", shortest(unit)},
+                 {"errors", packed_text(errors)},
+                 {"least_error", shortest(kLeastError)}};
+    if (fs::exists(in_folder(kLampsFile)))
+        data["lamps"] = lamps_data(folder, pages, width, height);
+    return data;
 }
 
 std::size_t write_page(const std::string& path, std::span<const std::string> folders)

@@ -4,6 +4,7 @@ import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { makeDiffuse } from '../../../../examples/threejs/lightmap.js';
 import { ErrorMap } from './errors.js';
+import { canAdd, LampMap } from './lamp_map.js';
 import { readLightmap } from './lightmap.js';
 
 // Unpacks base64 of gzip.
@@ -54,10 +55,20 @@ function firstView(gltf, preview) {
     return camera;
 }
 
+// Lamps with the materials of their own surfaces, which shine with them.
+function withSurfaces(lamps, scene) {
+    const materials = new Set();
+    scene.traverse(({ material }) => material?.emissive && materials.add(material));
+    return lamps.map((lamp) => ({ ...lamp, surfaces: [...materials].filter(({ name }) => lamp.members.includes(name))
+        .map((material) => ({ material, emissive: material.emissive.clone() })) }));
+}
+
 /** One baked folder: its report, its scene lit by its lightmap, and the first view. */
 async function readBake(renderer, { name, report, glb, lightmap, unit, pages_across: pagesAcross, errors,
-    least_error: leastError }) {
-    const map = await readLightmap(renderer, await unpack(lightmap), unit, pagesAcross);
+    least_error: leastError, lamps }) {
+    const whole = await readLightmap(renderer, await unpack(lightmap), unit, pagesAcross);
+    const dimmed = lamps && canAdd(renderer);
+    const map = dimmed ? new LampMap(renderer, whole, lamps.list, new Uint8Array(await unpack(lamps.maps))) : whole;
     const errorBytes = new Uint8Array(await unpack(errors));
     const gltf = await new GLTFLoader().parseAsync(await unpack(glb), '');
     makeDiffuse(gltf);
@@ -66,6 +77,7 @@ async function readBake(renderer, { name, report, glb, lightmap, unit, pages_acr
         errors: errorBytes.length > 0 ? new ErrorMap(errorBytes, map.width, map.height, leastError) : null,
         scene: gltf.scene,
         lit: bindLightmap(gltf.scene, map),
+        lamps: dimmed ? withSurfaces(lamps.list, gltf.scene) : [],
         exposure: gltf.asset.extras?.lumel?.exposure ?? report.solution.exposure ?? 1, // [1/lx]
         camera: firstView(gltf, report.preview),
     };

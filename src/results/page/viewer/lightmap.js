@@ -17,6 +17,8 @@ function unpacked(word) {
     return [word & 511, (word >>> 9) & 511, (word >>> 18) & 511].map((mantissa) => mantissa * scale);
 }
 
+const clamped = (index, count) => Math.min(Math.max(index, 0), count - 1);
+
 export class Lightmap {
     /** unit: irradiance of a texel of 1. [lx] */
     constructor(texture, unit, pagesAcross) {
@@ -28,21 +30,43 @@ export class Lightmap {
         this.words = texture.image.data;
     }
 
-    /** Irradiance of a texel, in linear RGB. [lx] */
-    at(x, y) {
-        const column = Math.min(Math.max(x, 0), this.width - 1), row = Math.min(Math.max(y, 0), this.height - 1);
-        return unpacked(this.words[row * this.width + column]).map((value) => value * this.unit);
+    /** Irradiance in linear RGB of texels, as a function of column and row; LampMap takes a rectangle of them,
+     * left, top, width, height, and reads no others. [lx] */
+    reader() {
+        return (x, y) => unpacked(this.words[y * this.width + x]).map((value) => value * this.unit);
     }
 
-    /** Bilinear irradiance at a position, (0, 0): top left. [lx] */
-    sample(u, v) {
-        const x = u * this.width - 0.5, y = v * this.height - 0.5;
+    /** Irradiance of a texel, in linear RGB. [lx] */
+    at(x, y) {
+        const column = clamped(x, this.width), row = clamped(y, this.height);
+        return this.reader(column, row, 1, 1)(column, row);
+    }
+
+    /** Bilinear irradiance at positions { x, y }, (0, 0): top left. [lx] */
+    samples(places) {
+        const texels = places.map(({ x, y }) => [x * this.width - 0.5, y * this.height - 0.5]);
+        const columns = texels.map(([x]) => clamped(Math.floor(x), this.width));
+        const rows = texels.map(([, y]) => clamped(Math.floor(y), this.height));
+        const [left, top] = [columns, rows].map((all) => all.reduce((a, b) => Math.min(a, b)));
+        const right = clamped(columns.reduce((a, b) => Math.max(a, b)) + 1, this.width);
+        const bottom = clamped(rows.reduce((a, b) => Math.max(a, b)) + 1, this.height);
+        const light = this.reader(left, top, right - left + 1, bottom - top + 1);
+        return texels.map(([x, y]) => this.bilinear(light, x, y));
+    }
+
+    bilinear(light, x, y) {
         const left = Math.floor(x), top = Math.floor(y);
         const corners = [[0, 0], [1, 0], [0, 1], [1, 1]];
         return corners.reduce((sum, [right, down]) => {
             const weight = (right ? x - left : 1 - x + left) * (down ? y - top : 1 - y + top);
-            return this.at(left + right, top + down).map((value, channel) => sum[channel] + weight * value);
+            return light(clamped(left + right, this.width), clamped(top + down, this.height))
+                .map((value, channel) => sum[channel] + weight * value);
         }, [0, 0, 0]);
+    }
+
+    /** Bilinear irradiance at one position. [lx] */
+    sample(u, v) {
+        return this.samples([{ x: u, y: v }])[0];
     }
 
     /** Illuminance of texels spread over the whole map. [lx] */

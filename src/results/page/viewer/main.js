@@ -4,11 +4,14 @@ import * as THREE from 'three';
 import { packedBakes, readBakes } from './bakes.js';
 import { colourAt, luxOf, luxText, percentText, scaleOfErrors, scaleOfLight } from './colours.js';
 import { convergence, element, lineColour, summary, table, timesTable } from './facts.js';
+import { Lamps } from './lamps.js';
 import { Legend } from './legend.js';
 import { Stage } from './stage.js';
+import { lightOver, surfaceAt } from './surface.js';
 import { walk } from './walk.js';
 
 const mostDrawn = 1024; // maximum side of a drawn lightmap [texels]
+const millisecondsToAtlas = 300; // without a change
 const byId = (id) => document.getElementById(id);
 
 function say(trouble) {
@@ -57,61 +60,84 @@ function addFacts(bakes) {
         section('Settings', bakes, (bake) => folded('All settings', settings(bake))));
 }
 
-// The lightmap in false colours, subsampled if large; shows the light under the mouse.
-function atlas({ map }, scale, read) {
+// The lightmap in false colours, subsampled if large.
+function drawAtlas(canvas, map, scale) {
     const step = Math.ceil(Math.max(map.width, map.height) / mostDrawn);
     const width = Math.ceil(map.width / step), height = Math.ceil(map.height / step);
-    const canvas = element('canvas', { width, height, 'aria-label': 'the lightmap' });
+    Object.assign(canvas, { width, height });
     const context = canvas.getContext('2d');
     const picture = context.createImageData(width, height);
+    const light = map.reader(0, 0, map.width, map.height);
     for (let y = 0; y < height; ++y)
         for (let x = 0; x < width; ++x) {
-            const lux = luxOf(map.at(x * step, y * step));
+            const lux = luxOf(light(x * step, y * step));
             const colour = lux > 0 ? colourAt(scale.placeOf(lux)) : [0, 0, 0];
             picture.data.set([...colour, 255], 4 * (y * width + x));
         }
     context.putImageData(picture, 0, 0);
-    canvas.addEventListener('pointermove', ({ offsetX, offsetY }) =>
-        read(offsetX / canvas.clientWidth, offsetY / canvas.clientHeight));
-    return canvas;
 }
 
+// Lightmaps in false colours, with the light under the mouse. Returns a function that draws them again.
 function addAtlases(bakes, scale, legend) {
+    const drawn = [];
     byId('scene').after(section('Lightmap', bakes, (bake) => {
         const reading = element('output', {}, 'Point at it to read its light.');
-        const canvas = atlas(bake, scale, (u, v) => {
+        const canvas = element('canvas', { 'aria-label': 'the lightmap' });
+        canvas.addEventListener('pointermove', ({ offsetX, offsetY }) => {
+            const u = offsetX / canvas.clientWidth, v = offsetY / canvas.clientHeight;
             const x = Math.min(Math.floor(u * bake.map.width), bake.map.width - 1);
             const y = Math.min(Math.floor(v * bake.map.height), bake.map.height - 1);
             const lux = luxOf(bake.map.at(x, y));
-            const error = bake.errors?.at(u, v);
+            const error = errorAt(bake, { x: u, y: v });
             reading.textContent = `${valueText(lux, error)} at column ${x}, row ${y}`;
             legend.draw({ lux });
         });
+        drawn.push(() => drawAtlas(canvas, bake.map, scale));
         return element('div', { class: 'atlas' }, canvas, element('p', {}, reading));
     }));
+    const draw = () => drawn.forEach((one) => one());
+    draw();
+    return draw;
 }
 
 const valueText = (lux, error) => error ? `${luxText(lux)} ± ${percentText(error)}` : luxText(lux);
 
-// Shows the light under the mouse below the scene.
+// Estimates are of the light as baked.
+const errorAt = ({ errors, map }, { x, y }) => map.asBaked === false ? null : errors?.at(x, y) ?? null;
+
+// Mean and uniformity of the surface under the mouse, of bakes with lamps.
+function surfaceText({ bake, hit }, known) {
+    if (bake.lamps.length === 0) return '';
+    if (known.hit?.object !== hit.object || known.hit.faceIndex !== hit.faceIndex)
+        Object.assign(known, { hit, surface: surfaceAt(hit) });
+    const { mean, uniformity } = lightOver(known.surface, bake.map);
+    Object.assign(byId('reading').dataset, { mean, uniformity });
+    return `; its surface: mean ${luxText(mean)}, least / mean ${uniformity.toFixed(2)}`;
+}
+
+// Shows the light under the mouse below the scene. Returns a function that reads it again.
 function readUnderMouse(stage, legend) {
-    const reading = byId('reading');
+    const reading = byId('reading'), known = {};
+    let found = null;
+    const show = () => {
+        if (!found) return;
+        const { bake, uv, place: { x, y, z } } = found;
+        const lux = luxOf(bake.map.sample(uv.x, uv.y)), error = errorAt(bake, uv);
+        const which = stage.bakes.length > 1 ? `, ${bake.name}` : '';
+        reading.textContent = `${valueText(lux, error)} at ${x.toFixed(2)}, ${y.toFixed(2)}, ${z.toFixed(2)} m${which}`
+            + surfaceText(found, known);
+        Object.assign(reading.dataset, { lux, error: error ?? '', u: uv.x, v: uv.y, bake: bake.name });
+        legend.draw({ lux, error });
+    };
     stage.canvas.addEventListener('pointermove', ({ offsetX, offsetY, buttons }) => {
         if (buttons !== 0) return;
-        const found = stage.lookUp(offsetX, offsetY);
-        if (!found) {
-            reading.textContent = 'No baked surface.';
-            reading.removeAttribute('data-lux');
-            reading.removeAttribute('data-error');
-            legend.draw();
-            return;
-        }
-        const lux = luxOf(found.light), { error, place: { x, y, z } } = found;
-        const which = stage.bakes.length > 1 ? `, ${found.bake.name}` : '';
-        reading.textContent = `${valueText(lux, error)} at ${x.toFixed(2)}, ${y.toFixed(2)}, ${z.toFixed(2)} m${which}`;
-        Object.assign(reading.dataset, { lux, error: error ?? '', u: found.uv.x, v: found.uv.y, bake: found.bake.name });
-        legend.draw({ lux, error });
+        found = stage.lookUp(offsetX, offsetY);
+        if (found) return show();
+        reading.textContent = 'No baked surface.';
+        for (const name of ['lux', 'error', 'mean', 'uniformity']) delete reading.dataset[name];
+        legend.draw();
     });
+    return show;
 }
 
 function addControls(stage, legend, scales) {
@@ -139,6 +165,29 @@ function addControls(stage, legend, scales) {
     byId('names').append(...stage.bakes.map(({ name }) => element('span', {}, name)));
 }
 
+// Sliders of the lamps. A moved one shows in the next frame; the whole lightmap follows when all rest.
+function addLamps(stage, readAgain, drawAtlases) {
+    const bakes = stage.bakes.filter(({ lamps }) => lamps.length > 0);
+    if (bakes.length === 0) {
+        say('The lamps cannot be dimmed: this browser cannot draw into textures of floating-point numbers.');
+        return;
+    }
+    let later = 0;
+    let changed = false;
+    stage.drawn = () => {
+        if (changed) readAgain();
+        changed = false;
+    };
+    const lamps = new Lamps(bakes, () => {
+        changed = true;
+        stage.draw();
+        clearTimeout(later);
+        later = setTimeout(drawAtlases, millisecondsToAtlas);
+    });
+    byId('scene').append(lamps.node);
+    byId('scene').classList.add('with-lamps');
+}
+
 async function open() {
     const packed = packedBakes();
     document.title = packed.map(({ report }) => report.scene.file).filter((file, i, all) => all.indexOf(file) === i)
@@ -156,8 +205,9 @@ async function open() {
     const size = new THREE.Box3().setFromObject(bakes[0].scene).getSize(new THREE.Vector3()).length();
     walk(stage.canvas, stage.camera, size, () => stage.draw());
     addControls(stage, legend, scales);
-    readUnderMouse(stage, legend);
-    addAtlases(bakes, scales.lux, legend);
+    const readAgain = readUnderMouse(stage, legend);
+    const drawAtlases = addAtlases(bakes, scales.lux, legend);
+    if (packed.some(({ lamps }) => lamps)) addLamps(stage, readAgain, drawAtlases);
     stage.drawNow();
     document.documentElement.dataset.state = 'ready';
 }

@@ -53,6 +53,7 @@ export class Stage {
         this.split = 0.5; // end of the first bake, relative to the width
         this.stops = 0;
         this.waiting = false;
+        this.drawn = null; // called after each frame
     }
 
     /** Shows bakes from readBakes(). scales: of false colours, of light and of errors. */
@@ -96,6 +97,7 @@ export class Stage {
         requestAnimationFrame(() => {
             this.waiting = false;
             this.drawNow();
+            this.drawn?.();
         });
     }
 
@@ -111,6 +113,7 @@ export class Stage {
 
     /** Draws the bakes, each in its part of the width, with the exposure of the first. */
     drawNow() {
+        for (const { map } of this.bakes) map.refresh?.();
         const { clientWidth: width, clientHeight: height } = this.canvas;
         // A white material with irradiance H sends H / π, and shows as AgX of exposure × H.
         this.renderer.toneMappingExposure = Math.PI * this.bakes[0].exposure * 2 ** this.stops;
@@ -124,7 +127,7 @@ export class Stage {
         });
     }
 
-    /** Surface at a position of the canvas, from its top left corner [CSS pixels]; none without known light. */
+    /** Surface at a position of the canvas, from its top left corner [CSS pixels]; none where no light is baked. */
     lookUp(x, y) {
         const { clientWidth: width, clientHeight: height } = this.canvas;
         const bake = this.bakes[this.bakes.length > 1 && x > this.split * width ? 1 : 0];
@@ -132,7 +135,6 @@ export class Stage {
         const hit = this.caster.intersectObjects(bake.lit, false).find((met) => met.uv1);
         if (!hit) return null;
         const uv = hit.object.material.lightMap.transformUv(hit.uv1.clone()); // in the whole map
-        return { bake, place: hit.point, uv, light: bake.map.sample(uv.x, uv.y),
-            error: bake.errors?.at(uv.x, uv.y) ?? null };
+        return { bake, hit, place: hit.point, uv };
     }
 }

@@ -1,0 +1,109 @@
+// Opens a page of lumel report whose lamps have sliders, works them, and prints what it shows after each step, as JSON:
+//     node probe_lamps.mjs page.html --browser-module FILE --steps FILE [--hash TEXT] [--points X,Y …] [--picture FILE]
+// steps: [{ press: BUTTON } | { lamp: NAME, factor: 0…2, on: BOOLEAN, colour: "#rrggbb" } | { save: PRESET }
+//     | { mode: NAME }, …]. points: of the scene's canvas, as parts of its width and height.
+// Exits with 0, or with 1 and a sentence.
+
+import { readFile } from 'node:fs/promises';
+import { pathToFileURL } from 'node:url';
+import { parseArgs } from 'node:util';
+
+const { values: options, positionals: [page] } = parseArgs({
+    allowPositionals: true,
+    options: { 'browser-module': { type: 'string' }, steps: { type: 'string' }, hash: { type: 'string', default: '' },
+        points: { type: 'string', multiple: true, default: [] } },
+});
+const { visit } = await import(pathToFileURL(options['browser-module']));
+
+// Runs in the page, before anything else of it.
+async function probe(points, steps) {
+    const errors = [];
+    for (const kind of ['error', 'warn']) {
+        const before = console[kind].bind(console);
+        console[kind] = (...words) => { errors.push(`${kind}: ${words.join(' ')}`); before(...words); };
+    }
+    addEventListener('error', ({ message }) => errors.push(message));
+    addEventListener('unhandledrejection', ({ reason }) => errors.push(String(reason)));
+    const frame = () => new Promise((done) => requestAnimationFrame(done));
+    const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
+    const root = document.documentElement;
+    while (!root.dataset.state) await pause(50);
+
+    const canvas = document.querySelector('#stage canvas'), reading = document.getElementById('reading');
+    const copy = document.createElement('canvas');
+    function readAt([x, y]) {
+        const box = canvas.getBoundingClientRect();
+        canvas.dispatchEvent(new PointerEvent('pointermove',
+            { clientX: box.left + x * box.width, clientY: box.top + y * box.height }));
+        const { lux, mean, uniformity, u, v, error } = reading.dataset;
+        return { text: reading.textContent, error, lux: Number(lux), mean: Number(mean), uniformity: Number(uniformity),
+            u: Number(u), v: Number(v) };
+    }
+    const shown = () => {
+        [copy.width, copy.height] = [canvas.width, canvas.height];
+        const context = copy.getContext('2d', { willReadFrequently: true });
+        context.drawImage(canvas, 0, 0);
+        return points.map(([x, y]) =>
+            [...context.getImageData(Math.floor(x * copy.width), Math.floor(y * copy.height), 1, 1).data]);
+    };
+    const rowOf = (name) => [...document.querySelectorAll('#lamps > ul:not(.presets) > li')]
+        .find((row) => row.querySelector('label').textContent.trim() === name);
+    const enter = (input, value, event = 'input') => {
+        input.value = value;
+        input.dispatchEvent(new Event(event));
+    };
+    function work({ press, lamp, factor, on, colour, save, mode }) {
+        if (press) [...document.querySelectorAll('#lamps button')].find((one) => one.textContent === press).click();
+        if (mode) document.querySelector(`[name=mode][value=${mode}]`).click();
+        if (save) {
+            document.querySelector('#lamps form input').value = save;
+            document.querySelector('#lamps form button').click();
+        }
+        const row = lamp !== undefined && rowOf(lamp);
+        if (factor !== undefined) enter(row.querySelector('[type=range]'), factor);
+        if (colour) enter(row.querySelector('[type=color]'), colour);
+        if (on !== undefined && row.querySelector('[type=checkbox]').checked !== on)
+            row.querySelector('[type=checkbox]').click();
+    }
+    // Time to work a control and have the canvas drawn.
+    async function timed(step) {
+        await frame();
+        const before = performance.now();
+        work(step);
+        await frame(); // of the page
+        shown();
+        return performance.now() - before;
+    }
+
+    const found = { state: root.dataset.state, steps: [] };
+    if (root.dataset.state === 'ready') {
+        readAt(points[0]);
+        for (const step of [{}, ...steps]) {
+            const milliseconds = await timed(step);
+            const kept = reading.textContent; // of the last point, which has not been pointed at again
+            found.steps.push({ milliseconds, colours: shown(), kept, readings: points.map(readAt) });
+            await pause(250); // until the address has followed
+            Object.assign(found.steps.at(-1), { hash: location.hash, rows: [...document.querySelectorAll(
+                '#lamps > ul:not(.presets) > li')].map((row) => ({ name: row.querySelector('label').textContent.trim(),
+                factor: row.querySelector('[type=range]').value, typed: row.querySelector('[type=number]').value,
+                on: row.querySelector('[type=checkbox]').checked, colour: row.querySelector('[type=color]').value })),
+            presets: [...document.querySelectorAll('#lamps .presets li')].map((one) => one.querySelector('button').textContent) });
+        }
+    }
+    await fetch('/found', { method: 'POST', body: JSON.stringify({ ...found, errors }) });
+}
+
+const points = options.points.map((point) => point.split(',').map(Number));
+const steps = JSON.parse(await readFile(options.steps, 'utf8'));
+const html = (await readFile(page, 'utf8')).replace('<style>', () =>
+    `<script>(${probe})(${JSON.stringify(points)}, ${JSON.stringify(steps).replaceAll('<', '\\u003c')})</script><style>`);
+try {
+    const { body } = await visit('chromium', options.hash, async (path) => {
+        if (path !== '/') throw new Error(`the page wants ${path}`);
+        return { type: 'text/html; charset=utf-8', content: html };
+    }, '/found');
+    console.log(body.toString());
+} catch (error) {
+    console.error(`probe_lamps.mjs: ${error.message}`);
+    process.exitCode = 1;
+}
