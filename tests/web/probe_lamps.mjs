@@ -1,5 +1,5 @@
 // Opens a page of lumel report whose lamps have sliders, works them, and prints what it shows after each step, as JSON:
-//     node probe_lamps.mjs page.html --browser-module FILE --steps FILE [--hash TEXT] [--points X,Y …] [--picture FILE]
+//     node probe_lamps.mjs page.html --browser-module FILE --steps FILE [--hash TEXT] [--points X,Y …]
 // steps: [{ press: BUTTON } | { lamp: NAME, factor: 0…2, on: BOOLEAN, colour: "#rrggbb" } | { save: PRESET }
 //     | { mode: NAME }, …]. points: of the scene's canvas, as parts of its width and height.
 // Exits with 0, or with 1 and a sentence.
@@ -35,8 +35,8 @@ async function probe(points, steps) {
         const box = canvas.getBoundingClientRect();
         canvas.dispatchEvent(new PointerEvent('pointermove',
             { clientX: box.left + x * box.width, clientY: box.top + y * box.height }));
-        const { lux, mean, uniformity, u, v, error } = reading.dataset;
-        return { text: reading.textContent, error, lux: Number(lux), mean: Number(mean), uniformity: Number(uniformity),
+        const { lux, mean, uniformity, u, v, error, bake } = reading.dataset;
+        return { text: reading.textContent, error, bake, lux: Number(lux), mean: Number(mean), uniformity: Number(uniformity),
             u: Number(u), v: Number(v) };
     }
     const shown = () => {
@@ -53,6 +53,10 @@ async function probe(points, steps) {
         input.dispatchEvent(new Event(event));
     };
     function work({ press, lamp, factor, on, colour, save, mode }) {
+        if (!press && !mode && !save && lamp === undefined) { // draws the scene alone
+            const exposure = document.getElementById('exposure');
+            enter(exposure, exposure.value);
+        }
         if (press) [...document.querySelectorAll('#lamps button')].find((one) => one.textContent === press).click();
         if (mode) document.querySelector(`[name=mode][value=${mode}]`).click();
         if (save) {
