@@ -3,6 +3,7 @@
 #include "base/json/json_file.h"
 #include "jobs/relight/states_file.h"
 #include "memory_file.h"
+#include "results/page/lamp_list.h"
 #include "results/record/bake_record.h"
 #include "results/record/solver_settings.h"
 
@@ -23,6 +24,14 @@ void read_states(Input input)
 {
     const MemoryFile file(input);
     require(!lumel::read_states(file.path()).empty(), "there is a state");
+}
+
+void read_lamps(Input input)
+{
+    const std::string path = "lamps.json";
+    const Json json = parse_json(path, input.data(), input.size());
+    const std::vector<ListedLamp> lamps = lamps_of(JsonView(path, json), 1);
+    require(!lamps.empty() && lamps.size() <= kMaxListedLamps, "there are 1 to 64 lamps");
 }
 
 }  // namespace lumel::fuzz
