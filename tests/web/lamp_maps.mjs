@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 export const side = 1024;
-const square = 16; // of the checkers that lamp 0 lights, with sharp edges [texels]
+const square = 7; // of the checkers that lamp 0 lights; its edges are within texels of half the size
 const surfaces = [1, 2, 3, 4, 5, 6].map((k) => `panel ${k}`); // materials of scenes/office.gltf
 
 export const names = ['<b>&amp;"quoted"\'', 'Küche ß', '💡🔆', 'a:b,c;d/e=f#g?h+i %41~*!', ' ', 'constructor',
@@ -17,12 +17,9 @@ const waves = names.map((_, k) => [1 + k % 5, 1 + k % 3].map((count) => Float32A
     (_, at) => Math.cos(2 * Math.PI * count * (at + 0.5) / side))));
 
 /** Irradiance of the first channel of a lamp at a texel. [lx] */
-export const light = (k, x, y) => 10 * (1 + k % 4) * (k === 0
-    ? ((x / square ^ y / square) & 1 ? 2 : 0.2)
-    : 1.5 + waves[k][0][x] * waves[k][1][y]);
-
-/** True if no edge of a checker is nearer than a few texels. */
-export const isSmooth = (x, y) => [x, y].every((at) => at % square > 4 && at % square < square - 4);
+export const light = (k, x, y) => k === 0
+    ? ((x / square ^ y / square) & 1 ? 150 : 5)
+    : 10 * (1 + k % 4) * (1.5 + waves[k][0][x] * waves[k][1][y]);
 
 const text = (value) => Buffer.from(`${value}\0`, 'latin1');
 const numbers = (type, ...values) => {
