@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scene/gltf/accessor.h"
+#include "scene/gltf/area_lights.h"
 #include "scene/gltf/baked_lights.h"
 #include "scene/gltf/baked_probes.h"
 #include "scene/gltf/container.h"
@@ -156,6 +157,7 @@ GltfDocument load_gltf_document(const std::string& path, BakeChanges changes)
     decode_draco(document);
     check_accessors(document);
     expand_instances(document);
+    expand_area_lights(document);
     name_webp_images(document);
     return document;
 }

@@ -13,7 +13,8 @@ namespace lumel {
 
 /// A .gltf or .glb file whose buffers, bufferViews and accessors are verified: all references
 /// resolve and all bytes of accessors exist. Data that extensions compress or instance are
-/// expanded: the JSON is that of the plain file, with additions at the end of its lists.
+/// expanded, and area lights are meshes: the JSON is that of the plain file, with additions at the
+/// end of its lists.
 struct GltfDocument {
     std::string path;
     Json json;                   ///< the file's JSON, in its order

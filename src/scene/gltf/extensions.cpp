@@ -9,7 +9,8 @@ namespace lumel {
 namespace {
 
 /// Extensions that are read or do not affect diffuse light; files may require them.
-constexpr std::array<std::string_view, 27> kSupported = {
+constexpr std::array<std::string_view, 28> kSupported = {
+    "EXT_lights_area",
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
