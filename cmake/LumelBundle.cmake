@@ -52,3 +52,10 @@ add_custom_target(bundle
     DEPENDS ${LUMEL_PROGRAMS} lumel_manual
     COMMENT "Making ${LUMEL_BUNDLE_NAME}.tar.gz"
     VERBATIM)
+
+# The Blender add-on, as one zip for all versions.
+set(LUMEL_BLENDER_ZIP ${PROJECT_BINARY_DIR}/lumel-blender-${PROJECT_VERSION}.zip)
+add_custom_target(blender-addon
+    COMMAND ${PROJECT_SOURCE_DIR}/tools/blender_addon ${LUMEL_BLENDER_ZIP}
+    COMMENT "Making ${LUMEL_BLENDER_ZIP}"
+    VERBATIM)
