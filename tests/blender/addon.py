@@ -333,13 +333,14 @@ def check_kept():
     preferences().program = '/bin/true'
     expect('is not lumel' in refusal(), 'a program that is none is not told')
     failing = folder / 'failing'
-    failing.write_text('#!/bin/sh\n[ "$1" = --version ] && { echo lumel 0.1.0; exit; }\necho error: no disk >&2; exit 3\n')
+    failing.write_text('#!/bin/sh\n[ "$1" = --version ] && { echo lumel 0.1.0; exit; }\n'
+                       'echo error: no disk >&2; exit 3\n')
     failing.chmod(0o755)
     preferences().program = str(failing)
     expect('no disk' in refusal(), 'the error of the program is not shown')
     preferences().program = lumel
     settings = bpy.context.scene.lumel
-    settings.quality, settings.density = 'fine', 60
+    settings.quality, settings.density = 'fine', 30
 
     cancel_once('stage', wanted=False)
     expect(bpy.ops.lumel.bake('EXEC_DEFAULT') == {'CANCELLED'}, 'the bake was not cancelled')

@@ -291,9 +291,10 @@ def draw_running(layout):
         layout.progress(text=text, factor=Running.bake.progress.get('fraction', 0))
     else:
         layout.label(text=text)
+    layout.operator('lumel.stop', text='Cancel', icon='CANCEL').keep = False
     row = layout.row()
+    row.enabled = 'error' in Running.bake.progress  # there is no light before
     row.operator('lumel.stop', text='Use Light So Far', icon='CHECKMARK').keep = True
-    row.operator('lumel.stop', text='Cancel', icon='CANCEL').keep = False
 
 
 class LUMEL_PT_render(Panel, bpy.types.Panel):
