@@ -8,10 +8,10 @@
 #include <glm/glm.hpp>
 
 #include "base/json/json_view.h"
+#include "results/record/bake_record.h"
 
 namespace lumel {
 
-inline constexpr const char* kLampsFile = "lamps.json";
 inline constexpr std::size_t kMaxListedLamps = 64;
 
 /// A lamp, or several that share a switch.
