@@ -55,12 +55,22 @@ function firstView(gltf, preview) {
     return camera;
 }
 
+// Names by which a lamp may list a surface: its node, or its material.
+const namesOf = (object) =>
+    [object, object.parent].map(({ name, userData }) => userData.name ?? name).concat(object.material.name);
+
 // Lamps with the materials of their own surfaces, which shine with them.
 function withSurfaces(lamps, scene) {
-    const materials = new Set();
-    scene.traverse(({ material }) => material?.emissive && materials.add(material));
-    return lamps.map((lamp) => ({ ...lamp, surfaces: [...materials].filter(({ name }) => lamp.members.includes(name))
-        .map((material) => ({ material, emissive: material.emissive.clone() })) }));
+    const shining = [];
+    scene.traverse((object) => {
+        const { r = 0, g = 0, b = 0 } = object.material?.emissive ?? {};
+        if (r + g + b > 0) shining.push(object);
+    });
+    // Surfaces of several lamps can share a material.
+    for (const object of shining) object.material = object.material.clone();
+    return lamps.map((lamp) => ({ ...lamp,
+        surfaces: shining.filter((object) => namesOf(object).some((name) => lamp.members.includes(name)))
+            .map(({ material }) => ({ material, emissive: material.emissive.clone() })) }));
 }
 
 /** One baked folder: its report, its scene lit by its lightmap, and the first view. */
