@@ -48,7 +48,8 @@ function exr(texelOf) {
         file.writeInt32LE(y, start + y * row);
         file.writeInt32LE(16 * side, start + y * row + 4);
         const line = new Float32Array(4 * side).fill(1, 0, side); // alpha
-        for (let x = 0; x < side; ++x) texelOf(x, y).forEach((value, channel) => { line[(3 - channel) * side + x] = value; });
+        for (let x = 0; x < side; ++x)
+            texelOf(x, y).forEach((value, channel) => { line[(3 - channel) * side + x] = value; });
         Buffer.from(line.buffer).copy(file, start + y * row + 8);
     }
     return file;
@@ -68,9 +69,9 @@ function write(folder, only) {
     if (only !== undefined) return;
     mkdirSync(into('lamps'), { recursive: true });
     all.forEach((k) => writeFileSync(into(`lamps/${k}.exr`), mapOf(k)));
-    writeFileSync(into('lamps.json'), JSON.stringify({ lamps: names.map((name, k) => ({ name, unit: 'lx', error: 0.01,
-        kind: k === 1 ? 'group' : 'spot', members: k === 1 ? surfaces : [name], color: colours[k], map: `lamps/${k}.exr` })),
-    sum_error: 0 }));
+    const lamps = names.map((name, k) => ({ name, kind: k === 1 ? 'group' : 'spot', members: k === 1 ? surfaces : [name],
+        unit: 'lx', color: colours[k], error: 0.01, map: `lamps/${k}.exr` }));
+    writeFileSync(into('lamps.json'), JSON.stringify({ lamps, sum_error: 0 }));
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) write(...process.argv.slice(2));

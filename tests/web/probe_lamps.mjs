@@ -36,8 +36,8 @@ async function probe(points, steps) {
         canvas.dispatchEvent(new PointerEvent('pointermove',
             { clientX: box.left + x * box.width, clientY: box.top + y * box.height }));
         const { lux, mean, uniformity, u, v, error, bake } = reading.dataset;
-        return { text: reading.textContent, error, bake, lux: Number(lux), mean: Number(mean), uniformity: Number(uniformity),
-            u: Number(u), v: Number(v) };
+        return { text: reading.textContent, error, bake, lux: Number(lux), mean: Number(mean),
+            uniformity: Number(uniformity), u: Number(u), v: Number(v) };
     }
     const shown = () => {
         [copy.width, copy.height] = [canvas.width, canvas.height];
@@ -46,8 +46,13 @@ async function probe(points, steps) {
         return points.map(([x, y]) =>
             [...context.getImageData(Math.floor(x * copy.width), Math.floor(y * copy.height), 1, 1).data]);
     };
-    const rowOf = (name) => [...document.querySelectorAll('#lamps > ul:not(.presets) > li')]
-        .find((row) => row.querySelector('label').textContent.trim() === name);
+    const rows = () => [...document.querySelectorAll('#lamps > ul:not(.presets) > li')];
+    const nameOf = (row) => row.querySelector('label').textContent.slice(1); // after a space
+    const shownOf = (row) => ({ name: nameOf(row), factor: row.querySelector('[type=range]').value,
+        typed: row.querySelector('[type=number]').value, on: row.querySelector('[type=checkbox]').checked,
+        colour: row.querySelector('[type=color]').value });
+    const presets = () => [...document.querySelectorAll('#lamps .presets li')]
+        .map((one) => one.querySelector('button').textContent);
     const enter = (input, value, event = 'input') => {
         input.value = value;
         input.dispatchEvent(new Event(event));
@@ -63,7 +68,7 @@ async function probe(points, steps) {
             document.querySelector('#lamps form input').value = save;
             document.querySelector('#lamps form button').click();
         }
-        const row = lamp !== undefined && rowOf(lamp);
+        const row = lamp !== undefined && rows().find((one) => nameOf(one) === lamp);
         if (factor !== undefined) enter(row.querySelector('[type=range]'), factor);
         if (colour) enter(row.querySelector('[type=color]'), colour);
         if (on !== undefined && row.querySelector('[type=checkbox]').checked !== on)
@@ -87,11 +92,7 @@ async function probe(points, steps) {
             const kept = reading.textContent; // of the last point, which has not been pointed at again
             found.steps.push({ milliseconds, colours: shown(), kept, readings: points.map(readAt) });
             await pause(250); // until the address has followed
-            Object.assign(found.steps.at(-1), { hash: location.hash, rows: [...document.querySelectorAll(
-                '#lamps > ul:not(.presets) > li')].map((row) => ({ name: row.querySelector('label').textContent.trim(),
-                factor: row.querySelector('[type=range]').value, typed: row.querySelector('[type=number]').value,
-                on: row.querySelector('[type=checkbox]').checked, colour: row.querySelector('[type=color]').value })),
-            presets: [...document.querySelectorAll('#lamps .presets li')].map((one) => one.querySelector('button').textContent) });
+            Object.assign(found.steps.at(-1), { hash: location.hash, rows: rows().map(shownOf), presets: presets() });
         }
     }
     await fetch('/found', { method: 'POST', body: JSON.stringify({ ...found, errors }) });
@@ -99,8 +100,9 @@ async function probe(points, steps) {
 
 const points = options.points.map((point) => point.split(',').map(Number));
 const steps = JSON.parse(await readFile(options.steps, 'utf8'));
+const asked = JSON.stringify([points, steps]).replaceAll('<', '\\u003c');
 const html = (await readFile(page, 'utf8')).replace('<style>', () =>
-    `<script>(${probe})(${JSON.stringify(points)}, ${JSON.stringify(steps).replaceAll('<', '\\u003c')})</script><style>`);
+    `<script>(${probe})(...${asked})</script><style>`);
 try {
     const { body } = await visit('chromium', options.hash, async (path) => {
         if (path !== '/') throw new Error(`the page wants ${path}`);

@@ -9,6 +9,9 @@
 // does not show, because S does not follow it; S W / W' instead would leave its outline in the light of all others.
 // Differs from the paper: the window is a texel and its four neighbours, ε pulls a to S / W' and not to 0, and b is
 // that of the texel, not a mean over the window.
+//
+// H is linear in the lamps. So while one lamp is dimmed, its light and that of all others stay as they are, at full
+// size, and only their sum is made again.
 
 import * as THREE from 'three';
 import { FullScreenQuad } from 'three/addons/postprocessing/Pass.js';
@@ -16,9 +19,11 @@ import { halfMap } from './half_map.js';
 import { Lightmap } from './lightmap.js';
 
 const mostLamps = 64; // as in ../lamp_list.h
+const largest = 65504; // half float
 
 const vertexShader = 'in vec3 position; void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }';
-const head = 'precision highp float; precision highp sampler2D; precision highp sampler2DArray; layout(location = 0) out vec4 made;';
+const head = `precision highp float; precision highp sampler2D; precision highp sampler2DArray;
+layout(location = 0) out vec4 made;`;
 
 const sumOfLamps = `${head}
 uniform sampler2DArray lamps;
@@ -29,16 +34,6 @@ void main() {
     for (int k = 0; k < count; ++k)
         if (gains[k] != vec3(0.0)) light += gains[k] * texelFetch(lamps, ivec3(gl_FragCoord.xy, k), 0).rgb;
     made = vec4(light, 1.0);
-}`;
-
-const withLamp = `${head}
-uniform sampler2D others;
-uniform sampler2DArray lamps;
-uniform vec3 gain;
-uniform int lamp;
-void main() {
-    ivec2 at = ivec2(gl_FragCoord.xy);
-    made = vec4(texelFetch(others, at, 0).rgb + gain * texelFetch(lamps, ivec3(at, lamp), 0).rgb, 1.0);
 }`;
 
 const fitOfDetails = `${head}
@@ -61,11 +56,22 @@ void main() {
 
 const withDetails = `${head}
 uniform sampler2D slope, rest, details;
+uniform float least;
 void main() {
     vec2 at = 0.5 * gl_FragCoord.xy / vec2(textureSize(slope, 0));
     vec3 detail = texelFetch(details, ivec2(gl_FragCoord.xy), 0).rgb;
-    made = vec4(max(texture(slope, at).rgb * detail + texture(rest, at).rgb, 0.0), 1.0);
+    made = vec4(max(texture(slope, at).rgb * detail + texture(rest, at).rgb, least), 1.0);
 }`;
+
+const sumOfTwo = `${head}
+uniform sampler2D others, one;
+uniform vec3 gain;
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    made = vec4(max(texelFetch(others, at, 0).rgb + gain * texelFetch(one, at, 0).rgb, 0.0), 1.0);
+}`;
+
+const none = new THREE.Vector3(0, 0, 0), full = new THREE.Vector3(1, 1, 1);
 
 const pass = (fragmentShader, uniforms) => new FullScreenQuad(new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3, vertexShader, fragmentShader, depthTest: false, depthWrite: false,
@@ -97,15 +103,16 @@ export class LampMap extends Lightmap {
         this.gains = list.map(() => new THREE.Vector3(1, 1, 1));
         this.added = this.gains.map((gain) => gain.clone()); // what the lightmap shows
         this.sum = target(width, height);
-        this.others = target(width, height); // all lamps but the one that moves
         this.fit = target(width, height, 2);
-        this.lit = target(whole.width, whole.height);
+        [this.others, this.one, this.lit] = [0, 1, 2].map(() => target(whole.width, whole.height));
         const lamps = arrayOf(list, bytes, width, height, whole.unit), [slope, rest] = this.fit.textures;
         const unused = Array.from({ length: mostLamps - list.length }, () => new THREE.Vector3());
-        this.sumPass = pass(sumOfLamps, { lamps, count: list.length, gains: [...this.gains, ...unused] });
-        this.lampPass = pass(withLamp, { others: this.others.texture, lamps, gain: new THREE.Vector3(), lamp: 0 });
+        this.summed = this.gains.map((gain) => gain.clone());
+        this.sumPass = pass(sumOfLamps, { lamps, count: list.length, gains: [...this.summed, ...unused] });
         this.fitPass = pass(fitOfDetails, { sum: this.sum.texture, whole: all.texture });
-        this.detailPass = pass(withDetails, { slope, rest, details: whole.texture });
+        this.detailPass = pass(withDetails, { slope, rest, details: whole.texture, least: 0 });
+        this.twoPass = pass(sumOfTwo,
+            { others: this.others.texture, one: this.one.texture, gain: new THREE.Vector3() });
         this.run(this.sumPass, all);
         this.addAll();
         this.texture = new THREE.ExternalTexture(renderer.properties.get(this.lit.texture).__webglTexture);
@@ -119,32 +126,28 @@ export class LampMap extends Lightmap {
         this.renderer.setRenderTarget(null);
     }
 
-    addAll() {
-        this.moving = -1;
+    // Light of all lamps by gainOf(gain, index), at full size. least: 0, or below it for a part of a sum.
+    light(gainOf, into, least) {
+        this.gains.forEach((gain, index) => this.summed[index].copy(gainOf(gain, index)));
+        this.detailPass.material.uniforms.least.value = least;
         this.run(this.sumPass, this.sum);
-        this.addDetails();
+        this.run(this.fitPass, this.fit);
+        this.run(this.detailPass, into);
     }
 
-    // The lamp that moves, and the sum of all others, which stays while it moves.
+    addAll() {
+        this.light((gain) => gain, this.lit, 0);
+        this.moving = -1; // others and one are out of date
+    }
+
     addOne(index) {
         if (this.moving !== index) {
-            const gain = this.gains[index].clone();
-            this.gains[index].set(0, 0, 0);
-            this.run(this.sumPass, this.others);
-            this.gains[index].copy(gain);
+            this.light((gain, k) => k === index ? none : gain, this.others, -largest);
+            this.light((_, k) => k === index ? full : none, this.one, -largest);
             this.moving = index;
         }
-        const { gain, lamp } = this.lampPass.material.uniforms;
-        gain.value.copy(this.gains[index]);
-        lamp.value = index;
-        this.run(this.lampPass, this.sum);
-        this.addDetails();
-    }
-
-    addDetails() {
-        this.run(this.fitPass, this.fit);
-        this.run(this.detailPass, this.lit);
-        this.gains.forEach((gain, index) => this.added[index].copy(gain));
+        this.twoPass.material.uniforms.gain.value.copy(this.gains[index]);
+        this.run(this.twoPass, this.lit);
     }
 
     /** Sets the factor of a lamp, in linear RGB relative to the bake. */
@@ -161,8 +164,12 @@ export class LampMap extends Lightmap {
     refresh() {
         const changed = this.gains.map((_, index) => index).filter((index) =>
             !this.gains[index].equals(this.added[index]));
-        if (changed.length === 1) this.addOne(changed[0]);
-        else if (changed.length > 1) this.addAll();
+        if (changed.length === 0) return;
+        // A lamp that has changed alone twice is one that a slider moves; two parts cost more than all at once.
+        if (changed.length === 1 && changed[0] === this.last) this.addOne(this.last);
+        else this.addAll();
+        this.last = changed.length === 1 ? changed[0] : -1;
+        changed.forEach((index) => this.added[index].copy(this.gains[index]));
     }
 
     /** As of Lightmap, of the lamps as they are set. */

@@ -1,5 +1,6 @@
 // A slider, a colour and a switch for each lamp; presets. The page's address holds the state.
 
+import { percentText } from './colours.js';
 import { element } from './facts.js';
 import { gainOf, hashOf, hexOf, readHash, stateOf } from './lighting.js';
 
@@ -44,7 +45,8 @@ function row(lamp, set) {
     number.addEventListener('blur', () => set({}));
     colour.addEventListener('input', () =>
         set({ colour: colour.value === hexOf(lamp.color) ? '' : colour.value }));
-    const title = [lamp.kind, ...(lamp.kind === 'group' ? [lamp.members.join(', ')] : [])].join(': ');
+    const kind = lamp.kind === 'group' ? `group: ${lamp.members.join(', ')}` : lamp.kind;
+    const title = lamp.error === undefined ? kind : `${kind}; estimated error ${percentText(lamp.error)}`;
     return {
         node: element('li', { title }, element('label', {}, on, ' ', name), slider, number, colour),
         show(state, except) {
@@ -138,11 +140,12 @@ export class Lamps {
     writeAddressNow() {
         clearTimeout(this.later);
         const hash = hashOf(this.states, this.presets);
-        if (hash !== location.hash.slice(1)) history.replaceState(null, '', hash ? `#${hash}` : location.pathname + location.search);
+        if (hash !== location.hash.slice(1))
+            history.replaceState(null, '', hash ? `#${hash}` : location.pathname + location.search);
     }
 
     copyLink() {
         this.writeAddressNow();
-        navigator.clipboard.writeText(location.href);
+        navigator.clipboard.writeText(location.href).catch(() => {}); // the address is still there to copy
     }
 }

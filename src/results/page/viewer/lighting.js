@@ -49,8 +49,9 @@ function textOf(states) {
 function statesOf(text) {
     return new Map(text.split(',').filter(Boolean).map((item) => {
         const [name, ...rest] = item.split(':');
-        const factor = rest.find((part) => part.startsWith('x')), colour = rest.find((part) => /^[0-9a-f]{6}$/.test(part));
-        return [decoded(name), stateOf({ factor: factor?.slice(1) ?? 1, on: !rest.includes('off'), colour: `#${colour}` })];
+        const factor = rest.find((part) => part.startsWith('x'))?.slice(1) ?? 1;
+        const colour = `#${rest.find((part) => /^[0-9a-f]{6}$/.test(part))}`;
+        return [decoded(name), stateOf({ factor, colour, on: !rest.includes('off') })];
     }));
 }
 
