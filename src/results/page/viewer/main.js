@@ -129,14 +129,19 @@ function readUnderMouse(stage, legend) {
         Object.assign(reading.dataset, { lux, error: error ?? '', u: uv.x, v: uv.y, bake: bake.name });
         legend.draw({ lux, error });
     };
-    stage.canvas.addEventListener('pointermove', ({ offsetX, offsetY, buttons }) => {
+    const point = ({ offsetX, offsetY, buttons }) => {
         if (buttons !== 0) return;
         found = stage.lookUp(offsetX, offsetY);
-        if (found) return show();
+        if (found) {
+            show();
+            return;
+        }
         reading.textContent = 'No baked surface.';
         for (const name of ['lux', 'error', 'mean', 'uniformity']) delete reading.dataset[name];
         legend.draw();
-    });
+    };
+    stage.canvas.addEventListener('pointermove', point);
+    stage.canvas.addEventListener('click', point); // a finger taps
     return show;
 }
 
