@@ -379,6 +379,12 @@ enum class Directional {
     sh2,  ///< also band 2: 9 coefficients
 };
 
+/// Joins all lamps whose names fit a pattern.
+struct LampGroup {
+    std::string name;
+    std::string pattern;  ///< * and ? match letters
+};
+
 struct BakeSettings {
     AtlasSettings atlas;
     /// An id that `lumel methods` lists: "links", "stochastic", "glossy", "directions",
@@ -388,6 +394,8 @@ struct BakeSettings {
     std::map<std::string, std::string> options;
     Parts parts = Parts::all;
     Directional directional = Directional::none;  ///< requires a Device and Parts::all
+    bool per_lamp = false;                        ///< fills Baked::lamps; only links
+    std::vector<LampGroup> groups;                ///< of lamps that become one map
     std::uint32_t seed = 1;
     // Targets and limits; the first that is reached ends the bake, targets once all are. If none is
     // given, those of `lumel bake`: with links 0.005 of visible noise and an eye_error of 0.05, but
@@ -403,6 +411,15 @@ struct BakeSettings {
     std::uint64_t max_memory = 0;  ///< limit of CPU and GPU memory, each [bytes]; 0: all available
 };
 
+/// Light of a lamp, or of a group.
+struct LampMap {
+    std::string name;  ///< of the light, of the emissive instance, or of the group; or "sky"
+    std::string kind;  ///< "sky", "sun", "point", "spot", "surface" or "group"
+    std::vector<std::string> members;  ///< names of a group's lamps, or the lamp's own
+    Map map;
+    double error = 0.0;  ///< estimated, relative to its own light
+};
+
 /// A finished bake.
 struct Baked {
     Map map;
@@ -410,6 +427,9 @@ struct Baked {
     /// orthonormal over the sphere, world axes. Irradiance for a normal n: H(n) = Σ A_l c_lm
     /// Y_lm(n) with A = π, 2π/3, π/4.
     std::vector<Map> directional;
+    /// Light is linear in its lamps: these add up to `map`, and a dimmed or coloured lamp is its
+    /// map times a factor per channel. At most 64.
+    std::vector<LampMap> lamps;
     std::vector<Surface> surfaces;  ///< by instance, then primitive, then side
     std::vector<Page> pages;        ///< pages of the map, at least one
     float texels_per_metre = 0.0f;

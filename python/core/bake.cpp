@@ -98,6 +98,14 @@ void add_surface(py::module_& module)
                                "(V,) index into the pages; empty if there is one page.");
 }
 
+py::dict lamps_of(const py::object& self)
+{
+    py::dict maps;
+    for (const lumel::LampMap& lamp : self.cast<const lumel::Baked&>().lamps)
+        maps[py::str(lamp.name)] = view_of(lamp.map, self);
+    return maps;
+}
+
 py::list directional_of(const py::object& self)
 {
     py::list maps;
@@ -123,6 +131,8 @@ void add_baked(py::module_& module)
                                "is.")
         .def_property_readonly("directional", &directional_of,
                                "4 or 9 maps of coefficients of the incoming radiance [cd/m²].")
+        .def_property_readonly("lamps", &lamps_of,
+                               "Maps of single lamps and groups by name, which add up to the map.")
         .def_readonly("surfaces", &Baked::surfaces)
         .def_property_readonly("pages", &pages_of, "Left, top and side [texels] of each.")
         .def_readonly("texels_per_metre", &Baked::texels_per_metre)

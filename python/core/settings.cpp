@@ -92,6 +92,10 @@ lumel::BakeSettings bake_settings(const py::kwargs& given)
     take_word<Directional>(
         settings, "directional", bake.directional,
         {{"none", Directional::none}, {"sh1", Directional::sh1}, {"sh2", Directional::sh2}});
+    take(settings, "per_lamp", bake.per_lamp);
+    take_entries<std::string>(settings, "groups", [&](std::string name, std::string pattern) {
+        bake.groups.push_back({std::move(name), std::move(pattern)});
+    });
     take(settings, "seed", bake.seed);
     take(settings, "error", bake.error);
     take(settings, "dark_error", bake.dark_error);

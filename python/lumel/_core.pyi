@@ -121,6 +121,9 @@ class Baked:
     def directional(self) -> list[_Floats]:
         """4 or 9 maps of coefficients of the incoming radiance [cd/m²]."""
     @property
+    def lamps(self) -> dict[str, _Floats]:
+        """With per_lamp: maps of single lamps and groups by name, which add up to the map."""
+    @property
     def surfaces(self) -> list[Surface]: ...
     @property
     def pages(self) -> list[tuple[int, int, int]]:
@@ -150,7 +153,8 @@ def bake(scene: Scene, *, device: Optional[Device] = None, progress: Optional[Ca
          densities: Optional[Mapping[str, float]] = None, coarse_afar: Optional[bool] = None,
          method: Optional[str] = None, options: Optional[Mapping[str, str]] = None,
          parts: Optional[Literal["all", "direct", "indirect"]] = None,
-         directional: Optional[Literal["none", "sh1", "sh2"]] = None, seed: Optional[int] = None,
+         directional: Optional[Literal["none", "sh1", "sh2"]] = None, per_lamp: Optional[bool] = None,
+         groups: Optional[Mapping[str, str]] = None, seed: Optional[int] = None,
          error: Optional[float] = None, dark_error: Optional[float] = None, eye_error: Optional[float] = None,
          visible_noise: Optional[float] = None, seconds: Optional[float] = None, shots: Optional[int] = None,
          max_memory: Optional[int] = None) -> Baked:
@@ -158,7 +162,8 @@ def bake(scene: Scene, *, device: Optional[Device] = None, progress: Optional[Ca
 
     progress: called often; returning False ends the bake with the best light so far, other values are ignored. Settings
     are those of BakeSettings and AtlasSettings in lumel.h; None stands for the default. densities: texels per metre by
-    names of nodes, meshes or materials, with shell wildcards; the last match applies.
+    names of nodes, meshes or materials, with shell wildcards; the last match applies. groups: patterns of lamps by the
+    name of their group.
     """
 
 def probes(baked: Baked, places: ArrayLike, *,

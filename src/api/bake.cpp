@@ -14,6 +14,7 @@
 #include "jobs/bake/advice.h"
 #include "jobs/bake/bake.h"
 #include "jobs/bake/directional_layers.h"
+#include "jobs/bake/lamp_maps.h"
 #include "jobs/solve/lighting.h"
 #include "jobs/solve/memory_plan.h"
 #include "jobs/solve/sources.h"
@@ -90,6 +91,14 @@ BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
     options.directional = directional_of(settings.directional);
     check_parts(options);
     options.solver = limits_of(settings);
+    const bool per_lamp = settings.per_lamp || !settings.groups.empty();
+    check_per_lamp(options, per_lamp);
+    if (per_lamp) {
+        auto& links = std::get<LinksOptions>(options.solver.method);
+        links.per_lamp = true;
+        for (const LampGroup& group : settings.groups)
+            links.groups.push_back({group.name, group.pattern});
+    }
     options.max_memory = settings.max_memory;
     options.preview_width = 0;
     options.atlas = checked_options(settings.atlas);
@@ -154,6 +163,25 @@ Map finished_map(const gpu::Device* device, const BakedSolution& baked, const Ba
     return map_of(std::move(maps.light));
 }
 
+/// The map of each lamp, if they are kept apart.
+std::vector<LampMap> maps_of_lamps(const BakedSolution& baked, Solver& solver, Stages& stages)
+{
+    auto* const links = dynamic_cast<LinkRadiosity*>(&solver);
+    if (!links || !links->lamps())
+        return {};
+    stages.begin("lamps");
+    std::vector<LampMap> lamps;
+    for (const NamedLamp& lamp : links->lamps()->all)
+        lamps.push_back({.name = lamp.name, .kind = lamp.kind, .members = lamp.members, .map = {}});
+    const std::vector<LinkRadiosity::LampLight> light = links->light_of_lamps();
+    std::vector<Image> maps = lamp_maps(baked.setting.prepared, baked.irradiance, light);
+    for (std::size_t k = 0; k < lamps.size(); ++k) {
+        lamps[k].map = map_of(std::move(maps[k]));
+        lamps[k].error = light[k].error;
+    }
+    return lamps;
+}
+
 /// Frees what only the solver needed.
 void reduce(Setting& setting)
 {
@@ -190,6 +218,7 @@ Baked baked_scene(const gpu::Device* device, const SceneImpl& given, BakeOptions
     kept->light = std::move(solution->relightable);
     Baked baked;
     baked.map = finished_map(device, *kept, options, solved.shots, stages, baked.directional);
+    baked.lamps = maps_of_lamps(*kept, *solution->solver, stages);
     baked.interrupted = stages.stopped();
     baked.surfaces = surfaces_of(prepared.scene, prepared.atlas);
     baked.pages = pages_of(prepared.atlas);

@@ -58,6 +58,38 @@ TEST(BakeWithoutDevice, RefusesWhatNeedsOne)
     });
 }
 
+TEST(LampsOfABake, AddUpToItsMap)
+{
+    const Scene scene = Scene::load(scene_path("room"));
+    const BakeSettings plain{.atlas = {.size = kSize}, .shots = 24};
+    BakeSettings apart = plain;
+    apart.per_lamp = true;
+    const Baked baked = bake(scene, apart);
+    EXPECT_EQ(baked.map.rgba, bake(scene, plain).map.rgba);
+    ASSERT_EQ(baked.lamps.size(), 2u);
+    EXPECT_EQ(baked.lamps[0].name, "window");
+    EXPECT_EQ(baked.lamps[0].kind, "surface");
+    EXPECT_GT(baked.lamps[0].error, 0.0);
+    for (std::size_t v = 0; v < baked.map.rgba.size(); ++v)
+        if (v % 4 != 3)
+            ASSERT_NEAR(baked.lamps[0].map.rgba[v] + baked.lamps[1].map.rgba[v], baked.map.rgba[v],
+                        1e-5f * baked.map.rgba[v] + 1e-6f);
+    apart.groups = {{"both", "*"}};
+    const Baked joined = bake(scene, apart);
+    ASSERT_EQ(joined.lamps.size(), 1u);
+    EXPECT_EQ(joined.lamps[0].members.size(), 2u);
+}
+
+TEST(LampsOfABake, ThatCannotBeKeptApartAreRefused)
+{
+    const Scene scene = Scene::load(scene_path("room"));
+    expect_error(ErrorKind::input, {"BakeSettings::per_lamp", "method"},
+                 [&] { bake(Device(), scene, {.method = "stochastic", .per_lamp = true}); });
+    expect_error(ErrorKind::input, {"BakeSettings::groups", "nobody"}, [&] {
+        bake(scene, {.groups = {{"a", "nobody"}}});
+    });
+}
+
 TEST(Directions, OfABakeGiveItsIrradianceAlongItsNormals)
 {
     const SceneContent content = furnace();

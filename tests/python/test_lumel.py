@@ -18,6 +18,7 @@ import numpy as np
 
 SCENES = pathlib.Path(os.environ["SCENES"])
 CORNELL_BOX = SCENES / "cornell-box.gltf"
+ROOM = SCENES / "room.gltf"
 
 # Cube of side 2 around the origin, seen from inside: corners by the bits of x, y, z, and two triangles a side.
 CORNERS = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])
@@ -195,6 +196,17 @@ class Bakes(unittest.TestCase):
             baked = coarse(cube(glowing(0.5)), size=None, texels_per_metre=8,
                            densities=types.MappingProxyType(densities))
             self.assertAlmostEqual(baked.surfaces[0].texels_per_metre, wanted, delta=1)
+
+    def test_lamps_add_up(self) -> None:
+        scene = lumel.Scene.load(ROOM)
+        baked = lumel.bake(scene, size=64, shots=12, per_lamp=True)
+        self.assertEqual(list(baked.lamps), ["window", "lamp shade"])
+        both = sum(map_of_one[..., :3] for map_of_one in baked.lamps.values())
+        np.testing.assert_allclose(both, baked.map[..., :3], rtol=1e-5, atol=1e-6)
+        joined = lumel.bake(scene, size=64, shots=12, groups={"both": "*"})
+        np.testing.assert_allclose(joined.lamps["both"], joined.map, rtol=1e-5)
+        with self.assertRaisesRegex(lumel.Error, "^groups.*fits no lamp"):
+            lumel.bake(scene, size=64, shots=12, groups={"both": "nobody"})
 
     def test_none_is_the_default(self) -> None:
         names = ("densities", "directional", "gutter", "max_size", "method", "options", "parts", "sides", "seed")
