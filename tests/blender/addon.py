@@ -2,6 +2,7 @@
     blender --background --python addon.py -- ZIP LUMEL FOLDER CHECK
 Prints the error of each light's irradiance against Cycles. CHECK: name of one of the functions check_…"""
 
+import importlib
 import math
 import pathlib
 import sys
@@ -20,21 +21,28 @@ archive, lumel, folder, chosen = sys.argv[sys.argv.index('--') + 1:]
 folder = pathlib.Path(folder)
 
 
+IS_EXTENSION = bpy.app.version >= (4, 2)
+MODULE = 'bl_ext.user_default.lumel' if IS_EXTENSION else 'lumel'
+
+
 def install():
-    bpy.ops.preferences.addon_install(filepath=archive)
-    bpy.ops.preferences.addon_enable(module='lumel')
+    if IS_EXTENSION:
+        bpy.ops.extensions.package_install_files(filepath=archive, repo='user_default')
+    else:
+        bpy.ops.preferences.addon_install(filepath=archive)
+    bpy.ops.preferences.addon_enable(module=MODULE)
     preferences().program = lumel
 
 
 def preferences():
-    return bpy.context.preferences.addons['lumel'].preferences
+    return bpy.context.preferences.addons[MODULE].preferences
 
 
 def clear():
     """An empty scene without a file; the add-on stays."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    if 'lumel' not in bpy.context.preferences.addons:
-        bpy.ops.preferences.addon_enable(module='lumel')
+    if MODULE not in bpy.context.preferences.addons:
+        bpy.ops.preferences.addon_enable(module=MODULE)
     preferences().program = lumel
     bpy.context.scene.lumel.quality = 'draft'
 
@@ -314,7 +322,7 @@ def check_again():
 
 def cancel_once(key, wanted):
     """Ends the next bake as soon as its progress has this key."""
-    from lumel import ui
+    ui = importlib.import_module(f'{MODULE}.ui')
 
     def watch():
         while not (ui.Running.bake and key in ui.Running.bake.progress):

@@ -4,7 +4,7 @@
 Blender measures light in watts; one watt is 683 lm, the factor of Blender's own exporter:
     point and spot light of P watts    I = 683 P / 4π        cd
     sun of strength s                  E = 683 s             lx
-    area light of P watts, area A      L = 683 P / (4 A)     cd/m², one side
+    area light of P watts, area A      L = 683 P / (π A)     cd/m², one side; before Blender 4.0 4 A for π A
     emission and world of strength s   L = 683 s             cd/m²"""
 
 import json
@@ -21,6 +21,7 @@ LUMENS_PER_WATT = 683.0
 SKY_SIZE = (1024, 512)  # texels of a world that is no plain colour
 SKY_SAMPLES = 16
 DEFAULT_ALBEDO = 0.8
+AREA_FACTOR = math.pi if bpy.app.version >= (4, 0) else 4  # watts to W/sr
 FULL_SPREAD = math.pi  # of an area light that is Lambertian
 STRENGTH = 'KHR_materials_emissive_strength'
 LAMPS = 'KHR_lights_punctual'
@@ -214,7 +215,7 @@ def add_area_light(gltf, name, light, color, power, place):
     is_round = light.shape in {'DISK', 'ELLIPSE'}
     area = width * height * (math.pi / 4 if is_round else 1)
     entry = {'name': name, 'type': 'disk' if is_round else 'rect', 'color': color, 'size': height,
-             'intensity': LUMENS_PER_WATT * power / (4 * area)}
+             'intensity': LUMENS_PER_WATT * power / (AREA_FACTOR * area)}
     entry['extras' if is_round else 'rect'] = {'aspect': width / height}
     lights = gltf.setdefault('extensions', {}).setdefault(AREA_LIGHTS, {}).setdefault('lights', [])
     turn = rotation_of(place)
