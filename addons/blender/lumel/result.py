@@ -146,7 +146,13 @@ def gather(blocks, collection):
             holder.objects.unlink(thing)
         if thing.type == 'MESH' or thing in parents:
             collection.objects.link(thing)
-    discard({thing for thing in objects if not thing.users_collection})
+    discard({thing for thing in objects if not thing.users_collection} |
+            {block for block in blocks if isinstance(block, (bpy.types.Camera, bpy.types.Light))})
+
+
+def is_there(scene):
+    """True with a result, or if its collection was deleted by hand and the originals are still hidden."""
+    return scene.lumel.result is not None or len(scene.lumel.hidden) > 0
 
 
 def layer_collection(context):

@@ -139,6 +139,7 @@ class LUMEL_OT_bake(bpy.types.Operator):
     def _begin(self, context):
         """Exports the scene and starts the bake. Returns a result only if that fails."""
         self._temporary = pathlib.Path(tempfile.mkdtemp(prefix='lumel-', dir=bpy.app.tempdir or None))
+        self._scene = context.scene.name
         try:
             settings = context.scene.lumel
             program = find_program(context.preferences.addons[__package__].preferences.program)
@@ -171,6 +172,7 @@ class LUMEL_OT_bake(bpy.types.Operator):
             return self._fail(bake.messages[-1] if bake.messages else
                               f'lumel ended with exit code {bake.exit_code} and no message')
         try:
+            to_scene(context, self._scene)
             to_object_mode(context)
             result.place_result(context, self._out)
         except ProgramError as error:
@@ -196,7 +198,7 @@ class LUMEL_OT_bake(bpy.types.Operator):
 def export_originals(context, folder):
     """Exports the scene as it is without its result."""
     to_object_mode(context)
-    baked = context.scene.lumel.result and context.scene.lumel.view == 'baked'
+    baked = result.is_there(context.scene) and context.scene.lumel.view == 'baked'
     if baked:
         result.show(context, baked=False)
     try:
@@ -204,6 +206,14 @@ def export_originals(context, folder):
     finally:
         if baked:
             result.show(context, baked=True)
+
+
+def to_scene(context, name):
+    """Back to the scene of the bake, if another one is shown now."""
+    if name not in bpy.data.scenes:
+        raise ProgramError('The scene of the bake is gone; bake again')
+    if context.scene.name != name:
+        context.window.scene = bpy.data.scenes[name]
 
 
 def to_object_mode(context):
@@ -216,6 +226,13 @@ def cancel(wanted):
     Running.wanted = wanted
     if Running.bake:
         Running.bake.stop()
+
+
+@bpy.app.handlers.persistent
+def forget(*_):
+    """Another file is loaded: its scene is not that of the bake."""
+    cancel(wanted=False)
+    Running.bake = None
 
 
 def redraw(context):
@@ -254,7 +271,7 @@ class LUMEL_OT_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.scene.lumel.result is not None
+        return result.is_there(context.scene)
 
     def execute(self, context):
         result.remove_result(context)
@@ -278,7 +295,7 @@ class Panel:
         column.prop(settings, 'density')
         column.prop(settings, 'largest')
         column.prop(settings, 'folder')
-        if settings.result:
+        if result.is_there(context.scene):
             layout.row().prop(settings, 'view', expand=True)
             layout.operator('lumel.remove', icon='TRASH')
 
@@ -317,11 +334,12 @@ def register():
     for kind in CLASSES:
         bpy.utils.register_class(kind)
     bpy.types.Scene.lumel = bpy.props.PointerProperty(type=Settings)
+    bpy.app.handlers.load_pre.append(forget)
 
 
 def unregister():
-    cancel(wanted=False)
-    Running.bake = None
+    forget()
+    bpy.app.handlers.load_pre.remove(forget)
     del bpy.types.Scene.lumel
     for kind in reversed(CLASSES):
         bpy.utils.unregister_class(kind)
