@@ -155,15 +155,17 @@ def add_light(kind, energy, **settings):
     return light
 
 
-def emissive_panel(**settings):
+def add_panel(look):
     bpy.ops.mesh.primitive_plane_add(size=0.5, location=(0, 0, HEIGHT), rotation=(math.pi, 0, 0))
-    bpy.context.object.name = 'panel'
-    bpy.context.object.data.materials.append(material('shining', (0, 0, 0), **settings))
+    bpy.context.object['lumel_density'] = 10.0  # its own light does not matter
+    bpy.context.object.data.materials.append(look)
+
+
+def emissive_panel(**settings):
+    add_panel(material('shining', (0, 0, 0), **settings))
 
 
 def emission_node():
-    bpy.ops.mesh.primitive_plane_add(size=0.5, location=(0, 0, HEIGHT), rotation=(math.pi, 0, 0))
-    bpy.context.object.name = 'panel'
     made = bpy.data.materials.new('bare')
     made.use_nodes = True
     nodes = made.node_tree.nodes
@@ -172,7 +174,7 @@ def emission_node():
     emission.inputs['Color'].default_value = (1, 0.5, 0.25, 1)
     emission.inputs['Strength'].default_value = 7
     made.node_tree.links.new(emission.outputs[0], nodes['Material Output'].inputs['Surface'])
-    bpy.context.object.data.materials.append(made)
+    add_panel(made)
 
 
 def sky_node():
@@ -324,7 +326,10 @@ def check_again():
     expect(numpy.array_equal(first, lightmap()), 'the same scene bakes otherwise')
     expect(counts() == once, f'{once} have become {counts()}')
     bpy.data.lights[0].energy *= 2
+    guest = bpy.data.objects.new('guest', None)
+    result().objects.link(guest)
     bake()
+    expect(guest.name == 'guest', 'an object that was put into the collection by hand is deleted')
     expect(abs(lightmap()[:, :, :3].sum() / first[:, :, :3].sum() - 2) < 0.02, 'twice the light is not twice as bright')
     bpy.ops.lumel.remove()
     expect(room.visible_get() and not bpy.data.objects['Cube'].visible_get(), 'visibility is not as it was')

@@ -10,6 +10,7 @@ from .export import LUMENS_PER_WATT
 from .process import ProgramError
 
 COLLECTION = 'Lumel'
+OWN = 'lumel_result'  # custom property of the objects of a result
 SHIFT = 1e-4  # metres between the two sides of one surface
 DATA = ('objects', 'meshes', 'materials', 'images', 'textures', 'cameras', 'lights', 'collections', 'actions')
 
@@ -146,6 +147,7 @@ def gather(blocks, collection):
             holder.objects.unlink(thing)
         if thing.type == 'MESH' or thing in parents:
             collection.objects.link(thing)
+            thing[OWN] = True
     discard({thing for thing in objects if not thing.users_collection} |
             {block for block in blocks if isinstance(block, (bpy.types.Camera, bpy.types.Light))})
 
@@ -197,7 +199,10 @@ def remove_result(context):
     if not result:
         return
     context.scene.lumel.result = None
-    things = set(result.all_objects)
+    for thing in [thing for thing in result.objects if OWN not in thing]:  # put there by hand
+        context.scene.collection.objects.link(thing)
+        result.objects.unlink(thing)
+    things = {thing for thing in result.objects if OWN in thing}
     meshes = {thing.data for thing in things if thing.type == 'MESH'}
     materials = {slot for mesh in meshes for slot in mesh.materials if slot}
     images = {node.image for material in materials if material.node_tree
