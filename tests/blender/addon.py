@@ -369,9 +369,13 @@ def check_kept():
     expect(bpy.ops.lumel.bake('EXEC_DEFAULT') == {'CANCELLED'}, 'the bake was not cancelled')
     expect(result() == old and visible() == shown, 'the old result has changed')
     first = lightmap().shape
+    settings.folder = str(folder / 'stopped')
     cancel_once('error', wanted=True)
     bake()
     expect(lightmap().shape != first and lightmap()[:, :, :3].max() > 0, 'the light so far is not shown')
+    old = result()
+    cancel_once('stage', wanted=True)
+    expect('before the first result' in refusal() and result() == old, 'files of a former bake are taken for new ones')
 
 
 def check_refused():

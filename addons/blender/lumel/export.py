@@ -269,7 +269,9 @@ def write_sky(context, folder):
 
 
 def draw_world(world, path):
-    """Renders a world alone as an equirectangular panorama. Its centre is +x, as in Lumel."""
+    """Renders a world alone as an equirectangular panorama. Its centre is +x, as in Lumel. Raises ProgramError."""
+    if not hasattr(bpy.types.Scene, 'cycles'):
+        raise ProgramError('The world is no plain colour, and Cycles, which draws it, is off; enable that add-on')
     scene = bpy.data.scenes.new('Lumel sky')
     camera = bpy.data.cameras.new('Lumel sky')
     eye = bpy.data.objects.new('Lumel sky', camera)

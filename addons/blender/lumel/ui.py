@@ -28,7 +28,7 @@ class Running:
     wanted = True  # False: its light is to be dropped
 
 
-class Preferences(bpy.types.AddonPreferences):
+class LumelPreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
     program: bpy.props.StringProperty(
@@ -43,7 +43,7 @@ class Preferences(bpy.types.AddonPreferences):
             self.layout.label(text=str(error), icon='ERROR')
 
 
-class Hidden(bpy.types.PropertyGroup):
+class LumelHidden(bpy.types.PropertyGroup):
     """An original that the baked scene hides, and whether it was visible."""
     object: bpy.props.PointerProperty(type=bpy.types.Object)
     eye: bpy.props.BoolProperty()
@@ -54,7 +54,7 @@ def switch_view(self, context):
     result.show(context, baked=self.view == 'baked')
 
 
-class Settings(bpy.types.PropertyGroup):
+class LumelSettings(bpy.types.PropertyGroup):
     quality: bpy.props.EnumProperty(name='Quality', items=QUALITIES, default='good')
     density: bpy.props.FloatProperty(
         name='Texels per Metre', default=16, min=0.1, soft_max=100,
@@ -67,7 +67,7 @@ class Settings(bpy.types.PropertyGroup):
         description='Folder for lightmap.exr, scene.glb and the other files of the bake; empty: keep none')
     view: bpy.props.EnumProperty(name='Result', items=VIEWS, default='baked', update=switch_view)
     result: bpy.props.PointerProperty(type=bpy.types.Collection)
-    hidden: bpy.props.CollectionProperty(type=Hidden)
+    hidden: bpy.props.CollectionProperty(type=LumelHidden)
 
 
 def folder_of(settings):
@@ -78,6 +78,11 @@ def folder_of(settings):
         raise ProgramError('"Save Files in" is relative to the .blend file, which is not saved yet; save it, '
                            'or choose another folder')
     return pathlib.Path(bpy.path.abspath(settings.folder))
+
+
+def time_of(path):
+    """When a file was written; None if there is none."""
+    return path.stat().st_mtime_ns if path.exists() else None
 
 
 def command_of(program, exported, out, settings, previews):
@@ -146,6 +151,7 @@ class LUMEL_OT_bake(bpy.types.Operator):
             check_program(program)
             folder = folder_of(settings)
             self._out = folder or self._temporary / 'out'
+            self._former = time_of(self._out / 'scene.glb')
             exported = export_originals(context, self._temporary)
             for warning in exported.warnings:
                 self.report({'WARNING'}, warning)
@@ -168,7 +174,8 @@ class LUMEL_OT_bake(bpy.types.Operator):
             self._clear()
             self.report({'INFO'}, 'Bake cancelled; nothing has changed')
             return {'CANCELLED'}
-        if bake.exit_code not in (0, STOPPED) or not (self._out / 'scene.glb').exists():
+        # A bake that is stopped early writes nothing.
+        if bake.exit_code not in (0, STOPPED) or time_of(self._out / 'scene.glb') == self._former:
             return self._fail(bake.messages[-1] if bake.messages else
                               f'lumel ended with exit code {bake.exit_code} and no message')
         try:
@@ -326,14 +333,14 @@ class LUMEL_PT_view(Panel, bpy.types.Panel):
     bl_category = 'Lumel'
 
 
-CLASSES = (Preferences, Hidden, Settings, LUMEL_OT_bake, LUMEL_OT_stop, LUMEL_OT_remove, LUMEL_PT_render,
-           LUMEL_PT_view)
+CLASSES = (LumelPreferences, LumelHidden, LumelSettings, LUMEL_OT_bake, LUMEL_OT_stop, LUMEL_OT_remove,
+           LUMEL_PT_render, LUMEL_PT_view)
 
 
 def register():
     for kind in CLASSES:
         bpy.utils.register_class(kind)
-    bpy.types.Scene.lumel = bpy.props.PointerProperty(type=Settings)
+    bpy.types.Scene.lumel = bpy.props.PointerProperty(type=LumelSettings)
     bpy.app.handlers.load_pre.append(forget)
 
 
