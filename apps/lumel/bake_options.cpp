@@ -54,8 +54,8 @@ void add_lamp_options(Command& command, GivenLinks& links)
           &links.per_lamp},
          {.names = "--group",
           .type = "NAME=PATTERN",
-          .help = "With --per-lamp, keep all lamps whose names fit the pattern as one, such "
-                  "as kitchen='lamp_k*'",
+          .help = "Keep all lamps whose names fit the pattern as one, such as "
+                  "kitchen='lamp_k*'; turns --per-lamp on",
           .target = [&links](const std::string& text) { links.groups.push_back(lamp_group(text)); },
           .repeatable = true}});
 }

@@ -166,19 +166,17 @@ Map finished_map(const gpu::Device* device, const BakedSolution& baked, const Ba
 /// The map of each lamp, if they are kept apart.
 std::vector<LampMap> maps_of_lamps(const BakedSolution& baked, Solver& solver, Stages& stages)
 {
-    auto* const links = dynamic_cast<LinkRadiosity*>(&solver);
-    if (!links || !links->lamps())
+    const std::optional<LampLights> found = keep_lamps_apart(solver, stages);
+    if (!found)
         return {};
-    stages.begin("lamps");
     std::vector<LampMap> lamps;
-    for (const NamedLamp& lamp : links->lamps()->all)
-        lamps.push_back({.name = lamp.name, .kind = lamp.kind, .members = lamp.members, .map = {}});
-    const std::vector<LinkRadiosity::LampLight> light = links->light_of_lamps();
-    std::vector<Image> maps = lamp_maps(baked.setting.prepared, baked.irradiance, light);
-    for (std::size_t k = 0; k < lamps.size(); ++k) {
-        lamps[k].map = map_of(std::move(maps[k]));
-        lamps[k].error = light[k].error;
-    }
+    FinishedMaps maps = lamp_maps(baked.setting.prepared, baked.irradiance, found->light);
+    for (std::size_t k = 0; k < found->lamps.size(); ++k)
+        lamps.push_back({.name = found->lamps[k].name,
+                         .kind = found->lamps[k].kind,
+                         .members = found->lamps[k].members,
+                         .map = map_of(std::move(maps.layers[k])),
+                         .error = found->light[k].error});
     return lamps;
 }
 

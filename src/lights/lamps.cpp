@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include <fnmatch.h>
 
@@ -39,23 +40,13 @@ std::string kind_of(const Scene& scene, const LightSource& source)
 std::vector<LightSource> all_sources(const Scene& scene, const Lumels& lumels,
                                      const LightSources& sources)
 {
-    std::vector<LightSource> all = light_sources(scene, lumels);
-    for (std::size_t s = 0; s < sources.count(); ++s) {
-        const LightSources::SourceInfo info = sources.origin(s);
-        if (info.part != LightSources::Part::material)
-            continue;
-        const auto holds = [&](const LightSource& one) {
-            return std::ranges::find(one.instances, info.instance) != one.instances.end();
-        };
-        if (std::ranges::any_of(all, holds))
-            continue;
-        const std::string& name = scene.instances[info.instance].name;
-        const std::string shown = name.empty() ? "instance " + std::to_string(info.instance) : name;
-        const auto same = std::ranges::find(all, shown, &LightSource::name);
-        (same != all.end() ? *same : all.emplace_back(LightSource{.name = shown}))
-            .instances.push_back(info.instance);
-    }
-    return all;
+    const std::vector<std::uint32_t> shown = shining_instances(lumels);
+    std::set<std::uint32_t> instances(shown.begin(), shown.end());
+    for (std::size_t s = 0; s < sources.count(); ++s)
+        if (const LightSources::SourceInfo info = sources.origin(s);
+            info.part == LightSources::Part::material)
+            instances.insert(info.instance);
+    return light_sources(scene, {instances.begin(), instances.end()});
 }
 
 bool fits(const LightSource& source, const LampGroup& group)
@@ -92,10 +83,13 @@ std::string quoted_names(const std::vector<LightSource>& sources)
 
 void check_groups(const std::vector<LightSource>& sources, std::span<const LampGroup> groups)
 {
-    for (const LampGroup& group : groups)
+    for (const LampGroup& group : groups) {
+        if (group.name.empty())
+            throw Error(ErrorKind::input, "--group", "needs a name for " + group.pattern);
         if (std::ranges::none_of(sources, [&](const LightSource& one) { return fits(one, group); }))
             throw Error(ErrorKind::input, "--group " + group.name + "=" + group.pattern,
                         "fits no lamp; the scene has " + quoted_names(sources));
+    }
 }
 
 /// [sources] Index of the lamp of each.

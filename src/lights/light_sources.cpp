@@ -23,16 +23,6 @@ std::string name_of(const Scene& scene, std::uint32_t instance)
     return name.empty() ? "instance " + std::to_string(instance) : name;
 }
 
-/// Instances with an emissive lumel that is open.
-std::vector<std::uint32_t> shining_instances(const Lumels& lumels)
-{
-    std::set<std::uint32_t> shining;
-    for (const Lumel& lumel : lumels.lumels)
-        if (!(lumel.flags & kLumelBuried) && lumel.emission != glm::vec3(0.0f))
-            shining.insert(lumel.instance);
-    return {shining.begin(), shining.end()};
-}
-
 std::vector<std::string> shining_materials(const Scene& scene, std::uint32_t instance)
 {
     std::vector<std::string> names;
@@ -55,7 +45,22 @@ LightSource& named(std::vector<LightSource>& sources, const std::string& name)
 
 }  // namespace
 
+std::vector<std::uint32_t> shining_instances(const Lumels& lumels)
+{
+    std::set<std::uint32_t> shining;
+    for (const Lumel& lumel : lumels.lumels)
+        if (!(lumel.flags & kLumelBuried) && lumel.emission != glm::vec3(0.0f))
+            shining.insert(lumel.instance);
+    return {shining.begin(), shining.end()};
+}
+
 std::vector<LightSource> light_sources(const Scene& scene, const Lumels& lumels)
+{
+    return light_sources(scene, shining_instances(lumels));
+}
+
+std::vector<LightSource> light_sources(const Scene& scene,
+                                       const std::vector<std::uint32_t>& instances)
 {
     std::vector<LightSource> sources;
     if (!scene.sky.empty())
@@ -64,7 +69,6 @@ std::vector<LightSource> light_sources(const Scene& scene, const Lumels& lumels)
         if (shines(scene.lights[i]))
             named(sources, scene.lights[i].name).lights.push_back(i);
 
-    const std::vector<std::uint32_t> instances = shining_instances(lumels);
     for (const std::uint32_t i : instances) {
         const std::vector<std::string> materials = shining_materials(scene, i);
         const bool by_material = instances.size() > kMaxEmitters && !materials.empty();

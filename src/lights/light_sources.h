@@ -28,6 +28,12 @@ struct LightSource {
 /// The sky, the lamps, then instances with an emissive lumel, in scene order. Omits lamps without
 /// light.
 std::vector<LightSource> light_sources(const Scene& scene, const Lumels& lumels);
+/// The same of these emissive instances, in scene order.
+std::vector<LightSource> light_sources(const Scene& scene,
+                                       const std::vector<std::uint32_t>& instances);
+
+/// Instances with an emissive lumel that is open, in scene order.
+std::vector<std::uint32_t> shining_instances(const Lumels& lumels);
 
 /// A scene with only the source's sky and lamps, without geometry; input of direct_light().
 Scene lamps_of(const Scene& scene, const LightSource& source);

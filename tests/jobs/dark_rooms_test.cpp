@@ -154,7 +154,7 @@ TEST_P(ClosedPair, KeepsTheLightOfALampInItsRoom)
     LinkRadiosity solver(world, LinksOptions{.per_lamp = true}, options.limits());
     ASSERT_TRUE(lumel::solve(solver, options));
     ASSERT_EQ(solver.lamps()->all.size(), 2u);
-    const auto lamps = solver.light_of_lamps();
+    const auto lamps = solver.light_of_lamps()->lamps;
     const std::size_t of_first = solver.lamps()->all[0].name == "first" ? 0 : 1;
     std::size_t lit = 0, count = 0;
     for (const std::size_t i : in_second_room(world, rooms)) {

@@ -37,6 +37,7 @@ struct Apart {
     std::vector<glm::vec3> whole;
     std::vector<NamedLamp> lamps;
     std::vector<LinkRadiosity::LampLight> light;
+    double scaled;
 };
 
 Apart solve_apart(const SolveScene& world, const SolverOptions& options,
@@ -46,7 +47,9 @@ Apart solve_apart(const SolveScene& world, const SolverOptions& options,
     links.groups = groups;
     LinkRadiosity solver(world, links, options.limits());
     EXPECT_TRUE(solve(solver, options));
-    return {solver.irradiance(), solver.lamps()->all, solver.light_of_lamps()};
+    const std::vector<glm::vec3> whole = solver.irradiance();
+    auto found = solver.light_of_lamps();
+    return {whole, solver.lamps()->all, std::move(found->lamps), found->scaled};
 }
 
 /// Relative RMSE over open lumels.

@@ -72,12 +72,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
             [&](double fraction) { return run.finished && stages.progress(fraction); });
     }
 
-    std::optional<LampLights> per_lamp;
-    if (keeps_lamps_apart(options)) {
-        stages.begin("lamps");
-        auto& solver = dynamic_cast<LinkRadiosity&>(*solution->solver);
-        per_lamp = {solver.lamps()->all, solver.light_of_lamps()};
-    }
+    const std::optional<LampLights> per_lamp = keep_lamps_apart(*solution->solver, stages);
 
     const bool stopped = stages.stopped();
     // Without light there is no error.
@@ -97,7 +92,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
                           .form_factors = solution->form_factors,
                           .lamps = std::move(solution->lamps),
                           .directional = std::move(directional),
-                          .per_lamp = std::move(per_lamp)};
+                          .per_lamp = per_lamp};
     output->outdate(kMatrixFile);
     output->outdate(kLinksFile);
     outdate_lamps(*output, folder);

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "atlas/finish/finish.h"
 #include "base/core/error.h"
 #include "base/core/parallel.h"
 #include "base/images/image_files.h"
@@ -25,29 +24,61 @@ constexpr std::size_t kTexelsPerTask = 4096;
 /// For the difference of the sum, texels darker than this × the brightest count as that bright.
 constexpr float kDarkestCounted = 1e-6f;
 
+/// At most so many bytes of UTF-8 text, without a part of a letter at the end.
+std::string beginning_of(const std::string& text, std::size_t most)
+{
+    constexpr unsigned char kTopBits = 0xC0, kContinued = 0x80;  // of a byte that goes on a letter
+    std::size_t end = std::min(most, text.size());
+    while (end > 0 && end < text.size() &&
+           (static_cast<unsigned char>(text[end]) & kTopBits) == kContinued)
+        --end;
+    return text.substr(0, end);
+}
+
 /// A name without what file systems, shells and web addresses treat specially.
 std::string as_file_name(const std::string& name)
 {
-    std::string safe = name.substr(0, kLongestName);
+    std::string safe = beginning_of(name, kLongestName);
     for (char& letter : safe) {
-        const auto byte = static_cast<unsigned char>(letter);
         const bool is_plain = (letter >= 'a' && letter <= 'z') ||
                               (letter >= 'A' && letter <= 'Z') ||
                               (letter >= '0' && letter <= '9') || letter == '-' || letter == '_';
-        if (!is_plain && byte < 0x80)
+        if (!is_plain && static_cast<unsigned char>(letter) < 0x80)
             letter = '_';
     }
-    // Not a part of a letter at the end.
-    if (name.size() > safe.size())
-        while (!safe.empty() && (static_cast<unsigned char>(safe.back()) & 0x80u) != 0)
-            safe.pop_back();
     return safe;
+}
+
+/// As file systems compare names that do not tell capitals from small letters.
+std::string in_small_letters(std::string name)
+{
+    for (char& letter : name)
+        if (letter >= 'A' && letter <= 'Z')
+            letter = char(letter - 'A' + 'a');
+    return name;
+}
+
+/// Makes one value of all layers positive, and their sum that of the whole. Light that no layer has
+/// goes to the first.
+void make_sum_exact(FinishedMaps& maps, std::size_t v)
+{
+    float sum = 0.0f;
+    for (Image& map : maps.layers)
+        sum += map.values[v] = std::max(map.values[v], 0.0f);
+    const float whole = maps.light.values[v];
+    for (Image& map : maps.layers)
+        map.values[v] *= sum > 0.0f ? whole / sum : 0.0f;
+    if (!(sum > 0.0f))
+        maps.layers.front().values[v] = whole;
 }
 
 /// Largest difference between the sum of the maps and the whole, relative to the whole.
 double error_of_sum(const Image& whole, const std::vector<Image>& maps)
 {
-    const float brightest = *std::ranges::max_element(whole.values);
+    float brightest = 0.0f;
+    for (std::size_t v = 0; v < whole.values.size(); ++v)
+        if (v % 4 != 3)
+            brightest = std::max(brightest, whole.values[v]);
     double worst = 0.0;
     for (std::size_t v = 0; v < whole.values.size(); ++v) {
         if (v % 4 == 3 || !(whole.values[v] > 0.0f))
@@ -81,8 +112,24 @@ void check_per_lamp(const BakeOptions& options, bool wanted)
                     "is not possible: only --solver links keeps the light of lamps apart");
 }
 
-std::vector<Image> lamp_maps(const SolveScene& prepared, std::span<const glm::vec3> irradiance,
-                             const std::vector<LinkRadiosity::LampLight>& lamps)
+std::optional<LampLights> keep_lamps_apart(Solver& solver, Stages& stages)
+{
+    auto* const links = dynamic_cast<LinkRadiosity*>(&solver);
+    if (!links || !links->lamps())
+        return std::nullopt;
+    stages.begin("lamps");
+    std::optional<LinkRadiosity::LampsLight> light;
+    if (!stages.stopped())
+        light = links->light_of_lamps([&](double fraction) { return stages.progress(fraction); });
+    if (!light) {
+        stages.tell("the bake was stopped before the maps of lamps were made; --resume makes them");
+        return std::nullopt;
+    }
+    return LampLights{links->lamps()->all, std::move(light->lamps)};
+}
+
+FinishedMaps lamp_maps(const SolveScene& prepared, std::span<const glm::vec3> irradiance,
+                       const std::vector<LinkRadiosity::LampLight>& lamps)
 {
     std::vector<std::vector<glm::vec3>> layers;
     for (const LinkRadiosity::LampLight& lamp : lamps)
@@ -92,19 +139,11 @@ std::vector<Image> lamp_maps(const SolveScene& prepared, std::span<const glm::ve
     // Seams are matched by least squares, which can leave a dark lamp slightly negative.
     parallel_for(finished.light.values.size() / 4, kTexelsPerTask,
                  [&](std::size_t from, std::size_t to) {
-                     for (std::size_t v = 4 * from; v < 4 * to; ++v) {
-                         if (v % 4 == 3)
-                             continue;
-                         float sum = 0.0f;
-                         for (Image& map : finished.layers)
-                             sum += map.values[v] = std::max(map.values[v], 0.0f);
-                         const float whole = finished.light.values[v];
-                         for (Image& map : finished.layers)
-                             map.values[v] = sum > 0.0f ? map.values[v] * (whole / sum)
-                                                        : whole / float(finished.layers.size());
-                     }
+                     for (std::size_t v = 4 * from; v < 4 * to; ++v)
+                         if (v % 4 != 3)
+                             make_sum_exact(finished, v);
                  });
-    return std::move(finished.layers);
+    return finished;
 }
 
 std::vector<std::string> lamp_map_names(const std::vector<NamedLamp>& lamps)
@@ -114,7 +153,7 @@ std::vector<std::string> lamp_map_names(const std::vector<NamedLamp>& lamps)
     for (const NamedLamp& lamp : lamps) {
         const std::string plain = kLampPrefix + as_file_name(lamp.name);
         std::string name = plain;
-        for (int number = 2; !taken.insert(name).second; ++number)
+        for (int number = 2; !taken.insert(in_small_letters(name)).second; ++number)
             name = plain + "_" + std::to_string(number);
         names.push_back(name);
     }
@@ -126,7 +165,8 @@ std::vector<std::string> write_lamps(const OutputFolder& folder, const BakeOptio
                                      std::span<const glm::vec3> irradiance, const LampLights& lamps,
                                      Stages& stages)
 {
-    const std::vector<Image> maps = lamp_maps(prepared, irradiance, lamps.light);
+    const FinishedMaps finished = lamp_maps(prepared, irradiance, lamps.light);
+    const std::vector<Image>& maps = finished.layers;
     const std::vector<std::string> names = lamp_map_names(lamps.lamps);
     const Pages& pages = prepared.atlas.pages;
     std::vector<std::string> files;
@@ -152,35 +192,30 @@ std::vector<std::string> write_lamps(const OutputFolder& folder, const BakeOptio
                         {"error", lamps.light[k].error},
                         {"map", page_name(pages, 0, names[k]) + ".exr"}});
     }
-    const Image whole = finish_map(prepared.scene, prepared.atlas, prepared.lumels, irradiance);
-    const double apart = error_of_sum(whole, maps);
-    write_json(folder.path(kLampsFile), {{"lamps", rows}, {"sum_error", apart}});
+    const double apart = error_of_sum(finished.light, maps);
+    Json list = {{"lamps", rows}};
+    // Half precision rounds each map and the lightmap.
+    if (!options.half)
+        list["sum_error"] = apart;
+    write_json(folder.path(kLampsFile), list);
     files.emplace_back(kLampsFile);
-    stages.tell(fmt::format("{} lamps, whose maps add up to the lightmap within {:.1e} of it",
-                            maps.size(), apart));
+    stages.tell(fmt::format("{} lamps, whose maps add up to the lightmap within {}", maps.size(),
+                            options.half ? "half precision" : fmt::format("{:.1e} of it", apart)));
     return files;
 }
 
 void outdate_lamps(OutputFolder& folder, const std::string& target)
 {
-    const std::string list = (std::filesystem::path(target) / kLampsFile).string();
-    folder.outdate(kLampsFile);
+    std::vector<std::string> files;
     try {
-        if (!std::filesystem::exists(list))
-            return;
-        const Json json = read_json(list);
-        for (const Json& lamp : json.at("lamps")) {
-            const std::string first = lamp.at("map").get<std::string>();
-            if (!first.starts_with(kLampPrefix))
-                continue;
-            folder.outdate(first);
-            const std::size_t page = first.rfind("-0.exr");
-            for (int k = 1; page != first.npos && k < kMaxPages; ++k)
-                folder.outdate(first.substr(0, page) + "-" + std::to_string(k) + ".exr");
-        }
+        const Json report = read_json((std::filesystem::path(target) / kReportFile).string());
+        files = report.at("files").get<std::vector<std::string>>();
     } catch (const std::exception&) {
-        return;  // not a list of lamps: its maps are not ours to remove
+        return;  // no bake, or none whose files are known
     }
+    for (const std::string& file : files)
+        if (file == kLampsFile || (file.starts_with(kLampPrefix) && file.ends_with(".exr")))
+            folder.outdate(file);
 }
 
 }  // namespace lumel

@@ -1,9 +1,12 @@
 #pragma once
 // Maps of the light of single lamps: bake --per-lamp.
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "atlas/finish/finish.h"
 #include "atlas/prepare/solve_scene.h"
 #include "jobs/solve/bake_options.h"
 #include "jobs/solve/stages.h"
@@ -21,9 +24,14 @@ struct LampLights {
 /// Throws Error{input} if lamps are to be kept apart by a method other than links.
 void check_per_lamp(const BakeOptions& options, bool wanted);
 
-/// Finished maps of lamps, without negative light. They add up to the map of `irradiance` [N] [lx].
-std::vector<Image> lamp_maps(const SolveScene& prepared, std::span<const glm::vec3> irradiance,
-                             const std::vector<LinkRadiosity::LampLight>& lamps);
+/// The light of lamps that a solver kept apart, in a stage of its own; empty if it did not, or the
+/// bake was stopped, which is told.
+std::optional<LampLights> keep_lamps_apart(Solver& solver, Stages& stages);
+
+/// Finished maps of the light [N] [lx] and, as layers, of its lamps, which add up to it: none is
+/// negative.
+FinishedMaps lamp_maps(const SolveScene& prepared, std::span<const glm::vec3> irradiance,
+                       const std::vector<LinkRadiosity::LampLight>& lamps);
 
 /// Names of the lamps' maps, without pages and ending: "lamp-" and the lamp's name, as far as files
 /// can have it.
@@ -35,7 +43,8 @@ std::vector<std::string> write_lamps(const OutputFolder& folder, const BakeOptio
                                      std::span<const glm::vec3> irradiance, const LampLights& lamps,
                                      Stages& stages);
 
-/// Removes maps of lamps of an earlier bake from the folder `target`.
+/// Removes lamps.json and the maps of lamps of an earlier bake from the folder `target`: those that
+/// its report lists.
 void outdate_lamps(OutputFolder& folder, const std::string& target);
 
 }  // namespace lumel

@@ -7,6 +7,7 @@
 #include "atlas/finish/finish.h"
 #include "base/core/bytes.h"
 #include "base/core/spherical_harmonics.h"
+#include "lights/light_sources.h"
 #include "links/trace/links.h"
 #include "methods/matrix/relight_solver.h"
 #include "methods/methods.h"
@@ -109,25 +110,25 @@ std::uint64_t writing_bytes(const Sizes& sizes, std::uint64_t layers)
     return std::max({map, solution, scene, toning, baked});
 }
 
-std::uint64_t bytes_of_links(std::uint64_t lumels, const SolverOptions& solver)
+std::uint64_t bytes_of_links(const Sizes& sizes, const SolverOptions& solver)
 {
     const std::uint32_t even = std::get<LinksOptions>(solver.method).even_rays;
-    return even > 0 ? LinkRadiosity::first_bytes(lumels, even)
-                    : LinkRadiosity::likely_bytes(lumels, solver.max_shots);
+    return even > 0 ? LinkRadiosity::first_bytes(sizes.lumels, even, sizes.lamps)
+                    : LinkRadiosity::likely_bytes(sizes.lumels, solver.max_shots, sizes.lamps);
 }
 
 /// Copies of all links while they are written: as StoredLinks, packed, and twice in a stream.
 std::uint64_t kept_bytes(const Sizes& sizes, const BakeOptions& options)
 {
     constexpr std::uint64_t kCopies = 4;
-    return options.keep_links ? kCopies * bytes_of_links(sizes.lumels, options.solver) : 0;
+    return options.keep_links ? kCopies * bytes_of_links(sizes, options.solver) : 0;
 }
 
 /// Memory of the largest stage, in addition to permanent data.
 std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool shared)
 {
     const std::uint64_t layers = layers_of(options);
-    const std::uint64_t maps = (2 + layers) * sizes.texels * kOfTexel +
+    const std::uint64_t maps = (2 + layers + sizes.lamps) * sizes.texels * kOfTexel +
                                (1 + layers + 2 * sizes.lamps) * sizes.lumels * sizeof(glm::vec3);
     const std::uint64_t solving =
         uses_links(options) ? std::max(LinkRadiosity::sweep_bytes(sizes.lumels),
@@ -152,9 +153,9 @@ void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& optio
     if (!uses_links(options))
         return;
     memory.solver = LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels, sizes.lamps);
-    memory.links = bytes_of_links(lumels, options.solver);
-    memory.first_links =
-        LinkRadiosity::first_bytes(lumels, std::get<LinksOptions>(options.solver.method).even_rays);
+    memory.links = bytes_of_links(sizes, options.solver);
+    memory.first_links = LinkRadiosity::first_bytes(
+        lumels, std::get<LinksOptions>(options.solver.method).even_rays, sizes.lamps);
 }
 
 /// The sizes that do not depend on the map's side.
@@ -188,19 +189,6 @@ std::uint64_t picture_bytes(const glm::ivec2& size)
     return std::uint64_t(size.x) * std::uint64_t(size.y) * kOfTexel;
 }
 
-}  // namespace
-
-std::uint64_t triangle_count(const Scene& scene)
-{
-    std::uint64_t count = 0;
-    for (const Instance& instance : scene.instances)
-        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
-            count += primitive.indices.size() / 3;
-    return count;
-}
-
-namespace {
-
 /// Lamps kept apart. Throws Error{input} as find_lamps() does.
 std::uint64_t lamp_count(const SolveScene& prepared, const BakeOptions& options)
 {
@@ -212,7 +200,27 @@ std::uint64_t lamp_count(const SolveScene& prepared, const BakeOptions& options)
         .all.size();
 }
 
+/// A lower bound, before it is known which surfaces shine.
+std::uint64_t least_lamp_count(const Scene& scene, const BakeOptions& options)
+{
+    if (!keeps_lamps_apart(options))
+        return 0;
+    if (!std::get<LinksOptions>(options.solver.method).groups.empty())
+        return 1;
+    return std::clamp<std::uint64_t>(light_sources(scene, std::vector<std::uint32_t>{}).size(), 1,
+                                     kMaxLamps);
+}
+
 }  // namespace
+
+std::uint64_t triangle_count(const Scene& scene)
+{
+    std::uint64_t count = 0;
+    for (const Instance& instance : scene.instances)
+        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
+            count += primitive.indices.size() / 3;
+    return count;
+}
 
 HostMemory host_memory(const SolveScene& prepared, const BakeOptions& options, bool shared)
 {
@@ -250,7 +258,8 @@ HostMemory host_memory(const Scene& scene, std::size_t lumels, const BakeOptions
     Sizes sizes{.lumels = lumels,
                 .pieces = lumels,
                 .texels = side * side * std::uint64_t(options.atlas.pages),
-                .page_texels = side * side};
+                .page_texels = side * side,
+                .lamps = least_lamp_count(scene, options)};
     if (options.preview_width > 0) {
         Atlas map;
         map.width = map.height = fixed_side(options.atlas);

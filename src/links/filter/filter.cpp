@@ -96,7 +96,8 @@ std::uint64_t ChartFilter::bytes(std::size_t lumels, std::size_t texels)
 /// else cells have.
 std::uint64_t ChartFilter::working_bytes(std::size_t lumels)
 {
-    return lumels * (4 * sizeof(FitLight<kSolutions>) + 18 * sizeof(float));
+    constexpr std::size_t kLevels = 4;  // of gains
+    return lumels * (4 * sizeof(FitLight<kSolutions>) + (18 + kLevels) * sizeof(float));
 }
 
 /// Bits of the neighbours on the same chart and side across which the filter may step.

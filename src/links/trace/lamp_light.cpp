@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/core/luminance.h"
 #include "base/core/parallel.h"
 #include "links/trace/links.h"
 
@@ -101,27 +102,32 @@ LinkRadiosity::LampSolutions LinkRadiosity::solve_lamps(const LampsReflected& re
     return found;
 }
 
-/// Adds the light that rays bring, and to `squares` its squared errors.
-void LinkRadiosity::add_indirect_lamps(std::vector<LampLight>& lamps, std::vector<double>& squares)
+/// Adds the light that rays bring, and to `squares` its squared errors. Returns false if progress
+/// does.
+bool LinkRadiosity::add_indirect_lamps(std::vector<LampLight>& lamps, std::vector<double>& squares,
+                                       const std::function<bool(double)>& progress)
 {
     const std::size_t count = work_.lumels().size();
     const Solutions whole = brought_light();
     const std::vector<double> left = error_left(filter(), plain_mean(whole), mean_);
+    std::vector<Estimates> means(lamps.size(), Estimates(count));
     for (std::size_t first = 0; first < lamps.size(); first += kLampLanes) {
+        if (progress && !progress(double(first) / double(lamps.size())))
+            return false;
         const LampsReflected reflected(work_, *parts_, *numbers_, *direct_, *lamps_, first);
         const LampSolutions found = solve_lamps(reflected);
-        std::vector<Estimates> means(std::min(kLampLanes, lamps.size() - first), Estimates(count));
-        for (std::size_t lane = 0; lane < means.size(); ++lane)
+        for (std::size_t lamp = first; lamp < std::min(first + kLampLanes, lamps.size()); ++lamp)
             for (std::size_t i = 0; i < count; ++i) {
-                const auto [a, b, c] = found.at(i, lane);
-                means[lane][i] = (a + b + c) / 3.0f;
-                squares[first + lane] += left[i] * spread(a, b, c) / 18.0;
+                const auto [a, b, c] = found.at(i, lamp - first);
+                means[lamp][i] = (a + b + c) / 3.0f;
+                squares[lamp] += left[i] * spread(a, b, c) / 18.0;
             }
-        if (filter())
-            filter()->indirect_parts(whole, means);
-        for (std::size_t lane = 0; lane < means.size(); ++lane)
-            add_positive(lamps[first + lane].irradiance, means[lane]);
     }
+    if (filter())
+        filter()->indirect_parts(whole, means);
+    for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp)
+        add_positive(lamps[lamp].irradiance, means[lamp]);
+    return true;
 }
 
 /// Adds direct light, and to `squares` its squared errors.
@@ -144,50 +150,72 @@ void LinkRadiosity::add_direct_lamps(std::vector<LampLight>& lamps, std::vector<
 }
 
 /// Scales the lamps of each lumel so that they add up to its light: their sweeps end at a residual,
-/// and no light is negative. Light without a lamp goes to all.
-void LinkRadiosity::make_sum_exact(std::vector<LampLight>& lamps) const
+/// and no light is negative. Light without a lamp goes to the brightest of the lumel before.
+/// Returns the RMS of what is missing or too much, relative to the mean.
+double LinkRadiosity::make_sum_exact(std::vector<LampLight>& lamps) const
 {
-    parallel_for(work_.lumels().size(), kLumelsPerTask, [&](std::size_t from, std::size_t to) {
-        for (std::size_t i = from; i < to; ++i) {
-            const glm::vec3 whole = arrived(i);
-            glm::vec3 sum(0.0f);
-            for (const LampLight& lamp : lamps)
-                sum += lamp.irradiance[i];
-            for (LampLight& lamp : lamps)
-                for (int c = 0; c < 3; ++c)
-                    lamp.irradiance[i][c] = sum[c] > 0.0f
-                                                ? lamp.irradiance[i][c] * (whole[c] / sum[c])
-                                                : whole[c] / float(lamps.size());
+    const std::size_t tasks = (work_.order.size() + kLumelsPerTask - 1) / kLumelsPerTask;
+    std::vector<glm::dvec2> sums(tasks, glm::dvec2(0.0));  // of squares, of light
+    parallel_for(tasks, 1, [&](std::size_t from, std::size_t to) {
+        for (std::size_t task = from; task < to; ++task) {
+            std::size_t brightest = 0;
+            const std::size_t end = std::min((task + 1) * kLumelsPerTask, work_.order.size());
+            for (std::size_t o = task * kLumelsPerTask; o < end; ++o) {
+                const std::uint32_t i = work_.order[o];
+                const glm::vec3 whole = arrived(i);
+                glm::vec3 sum(0.0f);
+                for (std::size_t k = 0; k < lamps.size(); ++k) {
+                    sum += lamps[k].irradiance[i];
+                    if (luminance(lamps[k].irradiance[i]) >
+                        luminance(lamps[brightest].irradiance[i]))
+                        brightest = k;
+                }
+                for (int c = 0; c < 3; ++c) {
+                    for (LampLight& lamp : lamps)
+                        lamp.irradiance[i][c] *= sum[c] > 0.0f ? whole[c] / sum[c] : 0.0f;
+                    if (!(sum[c] > 0.0f))
+                        lamps[brightest].irradiance[i][c] = whole[c];
+                }
+                sums[task] += glm::dvec2(double(glm::dot(sum - whole, sum - whole)),
+                                         double(whole.r + whole.g + whole.b));
+            }
         }
     });
+    glm::dvec2 all(0.0);
+    for (const glm::dvec2& sum : sums)
+        all += sum;
+    // √(Σ d² / 3n) / (Σ H / 3n)
+    return all.y > 0.0 ? std::sqrt(3.0 * double(work_.order.size()) * all.x) / all.y : 0.0;
 }
 
-std::vector<LinkRadiosity::LampLight> LinkRadiosity::light_of_lamps()
+std::optional<LinkRadiosity::LampsLight>
+LinkRadiosity::light_of_lamps(const std::function<bool(double)>& progress)
 {
     const std::size_t count = work_.lumels().size();
-    std::vector<LampLight> lamps(lamp_count());
-    for (LampLight& lamp : lamps)
+    LampsLight found{std::vector<LampLight>(lamp_count())};
+    for (LampLight& lamp : found.lamps)
         lamp.irradiance.assign(count, glm::vec3(0.0f));
-    std::vector<double> squares(lamps.size(), 0.0);
+    std::vector<double> squares(found.lamps.size(), 0.0);
     if (!mean_.light.empty()) {
         drop_round_in_progress();
-        add_indirect_lamps(lamps, squares);
+        if (!add_indirect_lamps(found.lamps, squares, progress))
+            return std::nullopt;
     }
     if (direct_ && parts_wanted_ != Parts::indirect)
-        add_direct_lamps(lamps, squares);
-    make_sum_exact(lamps);
-    for (std::size_t k = 0; k < lamps.size(); ++k) {
+        add_direct_lamps(found.lamps, squares);
+    found.scaled = make_sum_exact(found.lamps);
+    for (std::size_t k = 0; k < found.lamps.size(); ++k) {
         double light = 0.0, lumels = 0.0;
         for (std::size_t i = 0; i < count; ++i)
             if (!work_.is_buried(i)) {
-                const glm::vec3& own = lamps[k].irradiance[i];
+                const glm::vec3& own = found.lamps[k].irradiance[i];
                 light += double(own.r + own.g + own.b);
                 lumels += 1.0;
             }
         // √(Σ d² / 3n) / (Σ H / 3n)
-        lamps[k].error = light > 0.0 ? std::sqrt(3.0 * lumels * squares[k]) / light : 0.0;
+        found.lamps[k].error = light > 0.0 ? std::sqrt(3.0 * lumels * squares[k]) / light : 0.0;
     }
-    return lamps;
+    return found;
 }
 
 }  // namespace lumel

@@ -187,7 +187,7 @@ bool LinkRadiosity::is_consistent() const
     for (std::size_t k = 0; k < kSolutions; ++k)
         fits = fits && links_[k]->rounds.size() == round_ + (is_tracing ? 1 : 0) &&
                links_[k]->fits(work_.order, *parts_, *numbers_, traced, lamp_count()) &&
-               is(swept_sky_[k].size(), parts) &&
+               swept_sky_[k].size() == (lamps_ && !mean_.light.empty() ? parts : 0) &&
                received_[k].size() >= (mean_.light.empty() ? 0 : parts) &&
                is(received_[k].size(), parts) &&
                sources_[k].rays.size() == (mean_.light.empty() ? 0 : parts);

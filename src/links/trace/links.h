@@ -2,6 +2,7 @@
 // Radiosity over links: rays are traced once, and their hits stored. See links.cpp.
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,11 +46,13 @@ public:
     static std::uint64_t device_bytes(const SolveSize&, const LinksOptions&) { return 0; }
 
     /// Host memory of the first round's links [bytes]. even_rays: as in LinksOptions.
-    static std::uint64_t first_bytes(std::size_t lumels, std::uint32_t even_rays);
+    /// lamps: kept apart.
+    static std::uint64_t first_bytes(std::size_t lumels, std::uint32_t even_rays,
+                                     std::size_t lamps);
 
     /// Host memory of links for the ray count of most scenes, at most `shots` per lumel (0: no
     /// limit) [bytes]. The actual count depends on the error.
-    static std::uint64_t likely_bytes(std::size_t lumels, std::uint64_t shots);
+    static std::uint64_t likely_bytes(std::size_t lumels, std::uint64_t shots, std::size_t lamps);
 
     /// Host memory except links, for the lifetime of the solver [bytes].
     static std::uint64_t host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels,
@@ -94,9 +97,15 @@ public:
     };
     /// Lamps that are kept apart, or null.
     const LampTable* lamps() const { return lamps_ ? &*lamps_ : nullptr; }
-    /// The light of each lamp, whose sum is irradiance(). Ends the solution: a round in progress is
-    /// dropped. Call it once.
-    std::vector<LampLight> light_of_lamps();
+    struct LampsLight {
+        std::vector<LampLight> lamps;  ///< [lamps()]
+        /// RMS difference, relative to the mean light, of the sum of lamps as they were solved for
+        /// from irradiance(), to which they are then scaled.
+        double scaled = 0.0;
+    };
+    /// The light of each lamp, whose sum is irradiance(); empty if progress returns false. Ends the
+    /// solution: a round in progress is dropped. Call it once.
+    std::optional<LampsLight> light_of_lamps(const std::function<bool(double)>& progress = {});
     /// Links to store for a later run, after a round has ended. hash: Scene::hash.
     StoredLinks kept(const std::string& hash) const;
     /// Rays that lumels have sent, without the known ones.
@@ -194,9 +203,10 @@ private:
     void drop_round_in_progress();
     struct LampSolutions;
     LampSolutions solve_lamps(const LampsReflected& reflected);
-    void add_indirect_lamps(std::vector<LampLight>& lamps, std::vector<double>& squares);
+    bool add_indirect_lamps(std::vector<LampLight>& lamps, std::vector<double>& squares,
+                            const std::function<bool(double)>& progress);
     void add_direct_lamps(std::vector<LampLight>& lamps, std::vector<double>& squares);
-    void make_sum_exact(std::vector<LampLight>& lamps) const;
+    double make_sum_exact(std::vector<LampLight>& lamps) const;
     void estimate();
     Errors estimate_for_eye();
 

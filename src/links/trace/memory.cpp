@@ -15,6 +15,9 @@ constexpr double kLikelyRays = 64.0;
 constexpr double kRowBytes = sizeof(std::uint16_t);
 /// [bytes] of a ray after the first round: the probability of its direction.
 constexpr double kProbabilityBytes = sizeof(std::uint16_t);
+/// [bytes] of a ray where lamps are kept apart: its shares. A tenth of the rays is near, with two
+/// to four shares each; maximum seen.
+constexpr double kShareBytes = 0.4 * double(sizeof(NearShare));
 /// [bytes] of a lumel's guide, of which 32 or more share one.
 constexpr double kGuideBytes = sizeof(std::uint32_t) + sizeof(RayGuide::Table) / 32.0;
 /// Fraction of lumels with direct light per cell: maximum seen.
@@ -28,22 +31,25 @@ std::uint64_t free_bytes_for_links()
     return std::uint64_t(kShareOfFree * double(available_memory_bytes()));
 }
 
-std::uint64_t LinkRadiosity::first_bytes(std::size_t lumels, std::uint32_t even_rays)
+std::uint64_t LinkRadiosity::first_bytes(std::size_t lumels, std::uint32_t even_rays,
+                                         std::size_t lamps)
 {
     const double rays = even_rays > 0 ? double(even_rays) : double(kSolutions * kFirstRays);
-    return std::uint64_t(double(lumels) * (rays * kLinkBytes + kSolutions * kRowBytes));
+    const double of_ray = kLinkBytes + (lamps > 0 ? kShareBytes : 0.0);
+    return std::uint64_t(double(lumels) * (rays * of_ray + kSolutions * kRowBytes));
 }
 
-std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shots)
+std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shots,
+                                          std::size_t lamps)
 {
     constexpr double kFirst = kSolutions * kFirstRays;
     const double rays = shots > 0 ? std::min(double(shots), kLikelyRays) : kLikelyRays;
     double rounds = 1.0;
     for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinAdded)
         ++rounds;
-    return std::uint64_t(double(lumels) *
-                         (rays * kLinkBytes + (rays - std::min(rays, kFirst)) * kProbabilityBytes +
-                          rounds * kSolutions * kRowBytes));
+    return std::uint64_t(double(lumels) * (rays * (kLinkBytes + (lamps > 0 ? kShareBytes : 0.0)) +
+                                           (rays - std::min(rays, kFirst)) * kProbabilityBytes +
+                                           rounds * kSolutions * kRowBytes));
 }
 
 std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels,
@@ -76,9 +82,15 @@ std::uint64_t LinkRadiosity::lamp_bytes(std::size_t lumels, std::size_t lamps)
 {
     if (lamps == 0)
         return 0;
-    // Direct light and source term, sweeps, what sub-lumels receive, and the three solutions.
-    constexpr std::size_t kOfLane = 4 * sizeof(glm::vec4) + (1 + kSolutions) * sizeof(glm::vec3);
-    return lumels * (kLampLanes * kOfLane + lamps * 2 * sizeof(glm::vec3));
+    // Sweeps: reflected direct light and source term, light sent before and after, what sub-lumels
+    // receive twice, the three solutions. Filter: lamps filtered together, beside the whole.
+    constexpr std::size_t kSweeps =
+        kLampLanes * (4 * sizeof(glm::vec4) + (2 + kSolutions) * sizeof(glm::vec3));
+    const std::uint64_t filter =
+        ChartFilter::working_bytes(lumels) + lumels * 4 * sizeof(FitLight<kFilteredTogether>);
+    // Their means, and the light they become.
+    const std::uint64_t light = lumels * (lamps * 2 + kSolutions) * sizeof(glm::vec3);
+    return light + std::max(lumels * std::uint64_t(kSweeps), filter);
 }
 
 /// Further rays per lumel and solution that fit in memory.

@@ -110,13 +110,10 @@ const LaneLight<kLampLanes>& LampsReflected::find_of_cell(LinkEnd end,
     return light;
 }
 
-LaneLight<kLampLanes> LampsReflected::near(std::span<const NearShare> shares,
-                                           std::uint32_t index) const
+LaneLight<kLampLanes> LampsReflected::near(std::span<const NearShare> shares) const
 {
     LaneLight<kLampLanes> sum{}, of_cells{};
     for (const NearShare& share : shares) {
-        if (share.near != index)
-            continue;
         if (share.lamp == NearShare::kEveryLamp) {
             const LaneLight<kLampLanes>& light = at(share.at, of_cells);
             for (std::size_t lane = 0; lane < count_; ++lane)
@@ -150,16 +147,36 @@ struct AllReflected {
     LaneLight<1> of_sky(const glm::vec3& light) const { return {glm::vec4(light, 0.0f)}; }
 };
 
-LaneLight<1> near_light(const AllReflected&, const LinkRow&, const NearLink& near)
+LaneLight<1> near_light(const AllReflected&, const NearLink& near, std::span<const NearShare>)
 {
     return {glm::vec4(near.light, 0.0f)};
 }
 
-LaneLight<kLampLanes> near_light(const LampsReflected& reflected, const LinkRow& row,
-                                 const NearLink& near)
+LaneLight<kLampLanes> near_light(const LampsReflected& reflected, const NearLink&,
+                                 std::span<const NearShare> shares)
 {
-    return reflected.near(row.shares, row.first_near + std::uint32_t(&near - row.near.data()));
+    return reflected.near(shares);
 }
+
+/// Walks through the near links of a row with their shares.
+class NearLinks {
+public:
+    explicit NearLinks(const LinkRow& row) : row_(row) {}
+
+    /// The next, and its shares.
+    std::pair<const NearLink*, std::span<const NearShare>> next()
+    {
+        const std::size_t first = share_;
+        const std::uint32_t index = row_.first_near + std::uint32_t(near_);
+        while (share_ < row_.shares.size() && row_.shares[share_].near == index)
+            ++share_;
+        return {&row_.near[near_++], row_.shares.subspan(first, share_ - first)};
+    }
+
+private:
+    const LinkRow& row_;
+    std::size_t near_ = 0, share_ = 0;
+};
 
 template <std::size_t Lanes, class Reflected>
 SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
@@ -176,15 +193,18 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
             bool is_all = true;
         };
         std::array<Count, kMaxParts> counts;
-        auto near = row.near.begin();
+        NearLinks nears(row);
         LaneLight<Lanes> found{};
         for (std::size_t k = 0; k < row.ends.size(); ++k) {
             const std::uint32_t leaves = row.leaves(parts, i, k);
             const float weight = row.weight(k);
             LinkEnd end = row.ends[k];
-            const NearLink* const is_near = end.number() == LinkNumbers::kNear ? &*near++ : nullptr;
-            if (is_near)
-                end = is_near->end;
+            const bool is_near = end.number() == LinkNumbers::kNear;
+            if (is_near) {
+                const auto [near, shares] = nears.next();
+                end = near->end;
+                found = near_light(reflected, *near, shares);
+            }
             if (end.number() == numbers.hidden() ||
                 (numbers.is_part(end.number()) && unknown[numbers.part(end.number())])) {
                 counts[leaves].is_all = false;
@@ -198,8 +218,6 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
             }
             counts[leaves].rays += 1.0f;
             counts[leaves].weights += weight;
-            if (is_near)
-                found = near_light(reflected, row, *is_near);
             const LaneLight<Lanes>& light = is_near ? found : reflected.at(end, found);
             for (std::size_t lane = 0; lane < Lanes; ++lane)
                 sum.light[(first + leaves) * Lanes + lane] +=

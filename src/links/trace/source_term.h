@@ -68,8 +68,8 @@ public:
         const LaneLight<kLampLanes>& light = of_number_[end.number()];
         return light[0].w == kVaries ? find_of_cell(end, of_cells) : light;
     }
-    /// Gathered by a near link [lx]. shares: of its row.
-    LaneLight<kLampLanes> near(std::span<const NearShare> shares, std::uint32_t index) const;
+    /// Gathered by a near link [lx], of these shares.
+    LaneLight<kLampLanes> near(std::span<const NearShare> shares) const;
     /// The sky's light in the lane of its lamp.
     LaneLight<kLampLanes> of_sky(const glm::vec3& light) const;
 
