@@ -61,7 +61,7 @@ TEST(BakeWithoutDevice, RefusesWhatNeedsOne)
 TEST(LampsOfABake, AddUpToItsMap)
 {
     const Scene scene = Scene::load(scene_path("room"));
-    const BakeSettings plain{.atlas = {.size = kSize}, .shots = 24};
+    const BakeSettings plain{.atlas = {.size = 128}, .shots = 24};
     BakeSettings apart = plain;
     apart.per_lamp = true;
     const Baked baked = bake(scene, apart);

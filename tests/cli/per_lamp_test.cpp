@@ -194,6 +194,32 @@ TEST(PerLamp, OfAnUpdateAreGoneAsTheyWouldNotFit)
     EXPECT_FALSE(fs::exists(place.path("out/lamp-bulb_0.exr")));
 }
 
+/// Only files that an earlier bake has listed are removed.
+TEST(PerLamp, FilesOfTheUserStay)
+{
+    const Workplace place;
+    const std::string scene = box_with_bulbs(place, 1);
+    fs::create_directory(place.path("out"));
+    place.file("out/lamps.json", "not json: my lamps");
+    place.file("out/lamp-0.exr", "mine");
+    ASSERT_EQ(run_lumel(bake_of(scene, place.path("out"))).code, 0);
+    EXPECT_EQ(bytes_of(place.path("out/lamps.json")), "not json: my lamps");
+    ASSERT_EQ(run_lumel(bake_of(scene, place.path("out"), {"--per-lamp"})).code, 0);
+    ASSERT_EQ(run_lumel(bake_of(scene, place.path("out"))).code, 0);
+    EXPECT_FALSE(fs::exists(place.path("out/lamps.json")));
+    EXPECT_EQ(bytes_of(place.path("out/lamp-0.exr")), "mine");
+}
+
+TEST(PerLamp, OfHalfPrecisionStateNoSum)
+{
+    const Workplace place;
+    const Outcome outcome =
+        run_lumel(bake_of(own_scene("room.gltf"), place.path("out"), {"--per-lamp", "--half"}));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_FALSE(lamps_in(place.path("out")).contains("sum_error"));
+    EXPECT_LT(error_of_sum(place.path("out")), 2e-3);
+}
+
 TEST(PerLamp, RefusesWhatItCannotKeepApart)
 {
     const Workplace place;
@@ -223,6 +249,13 @@ TEST(PerLamp, KeepsToTheMemoryAllowed)
                           "24", "--preview-width", "0", "-q", "--max-memory", memory});
     };
     expect_one_sentence(bake("512", "400M"), 3, {"--max-memory allows 400.0 MiB", "--size"});
+    // Many rays end near their lumel.
+    const auto rays = [&](const char* memory) {
+        return run_lumel({"bake", own_scene("city.gltf"), place.path("city"), "--size", "96",
+                          "--sky", "1,1,1", "--links", "3072", "--per-lamp", "--preview-width", "0",
+                          "-q", "--max-memory", memory});
+    };
+    expect_one_sentence(rays("280M"), 3, {"--max-memory allows 280.0 MiB"});
     const Outcome done = bake("160", "400M");
     ASSERT_EQ(done.code, 0) << done.err;
     const Json report = Json::parse(bytes_of(place.path("out/report.json")));

@@ -327,26 +327,30 @@ void DirectEstimator::take(const Group& group, std::uint32_t i, const RayBatch& 
 }
 
 /// Shares out the light of several sources to their lamps, in proportion to what rays to them
-/// brought: to the cell, else to its sub-lumel.
+/// brought: to the half; and to the cell, else to its sub-lumel, where cells will be kept.
 void DirectEstimator::share_out(const Group& group, std::uint32_t i, const RayBatch& wave,
                                 const OfLumel& light, Found& found) const
 {
-    struct Brought {
-        OfLumel light;
+    struct OfCellsAndParts {
+        OfCells cells{};
         std::array<glm::vec3, kMaxParts> parts{};
     };
-    std::vector<Brought> of_lamps(lamps_);
-    Brought all;
+    const bool by_cell = more_[i] > 0 || is_cut(i);
+    // The last is of all lamps.
+    std::vector<std::array<glm::vec3, 2>> halves(lamps_ + 1);
+    std::vector<OfCellsAndParts> places(by_cell ? lamps_ + 1 : 0);
     for (std::uint32_t n = 0; n < 2 * group.rays; ++n) {
         const std::uint32_t look = group.first + n, cell = wave.cells[look];
         if (cell == kNoCell)
             continue;
         const SourceSample& sample = wave.looks.sample(look);
         const glm::vec3 sent = wave.looks.transmittance(look) * sample.irradiance;
-        for (Brought* into : {&all, &of_lamps[of_lamps_->of_source[sample.source]]}) {
-            into->light.half[n / group.rays] += sent;
-            into->light.cells[cell] += sent;
-            into->parts[part_of(i, cell)] += sent;
+        for (const std::size_t lamp : {std::size_t(of_lamps_->of_source[sample.source]), lamps_}) {
+            halves[lamp][n / group.rays] += sent;
+            if (by_cell) {
+                places[lamp].cells[cell] += sent;
+                places[lamp].parts[part_of(i, cell)] += sent;
+            }
         }
     }
     const auto share = [](const glm::vec3& of, const glm::vec3& sum) {
@@ -356,18 +360,16 @@ void DirectEstimator::share_out(const Group& group, std::uint32_t i, const RayBa
         return result;
     };
     for (std::size_t lamp = 0; lamp < lamps_; ++lamp) {
-        const Brought& own = of_lamps[lamp];
-        OfLumel part;
-        for (int h = 0; h < 2; ++h)
-            part.half[h] = share(own.light.half[h], all.light.half[h]) * light.half[h];
-        for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c) {
-            const bool any = all.light.cells[c] != glm::vec3(0.0f);
+        OfLumel& into = found.of_lamps[lamp];
+        for (std::size_t h = 0; h < 2; ++h)
+            into.half[h] += share(halves[lamp][h], halves[lamps_][h]) * light.half[h];
+        for (std::uint32_t c = 0; by_cell && c < std::uint32_t(kCells); ++c) {
+            const OfCellsAndParts &own = places[lamp], &all = places[lamps_];
             const std::uint32_t p = part_of(i, c);
-            part.cells[c] = (any ? share(own.light.cells[c], all.light.cells[c])
-                                 : share(own.parts[p], all.parts[p])) *
-                            light.cells[c];
+            into.cells[c] += (all.cells[c] != glm::vec3(0.0f) ? share(own.cells[c], all.cells[c])
+                                                              : share(own.parts[p], all.parts[p])) *
+                             light.cells[c];
         }
-        found.of_lamps[lamp].add(part);
     }
 }
 

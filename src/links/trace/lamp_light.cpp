@@ -155,7 +155,7 @@ void LinkRadiosity::add_direct_lamps(std::vector<LampLight>& lamps, std::vector<
 double LinkRadiosity::make_sum_exact(std::vector<LampLight>& lamps) const
 {
     const std::size_t tasks = (work_.order.size() + kLumelsPerTask - 1) / kLumelsPerTask;
-    std::vector<glm::dvec2> sums(tasks, glm::dvec2(0.0));  // of squares, of light
+    std::vector<glm::dvec2> sums(tasks, glm::dvec2(0.0));  // of lamps, of the whole
     parallel_for(tasks, 1, [&](std::size_t from, std::size_t to) {
         for (std::size_t task = from; task < to; ++task) {
             std::size_t brightest = 0;
@@ -176,16 +176,15 @@ double LinkRadiosity::make_sum_exact(std::vector<LampLight>& lamps) const
                     if (!(sum[c] > 0.0f))
                         lamps[brightest].irradiance[i][c] = whole[c];
                 }
-                sums[task] += glm::dvec2(double(glm::dot(sum - whole, sum - whole)),
-                                         double(whole.r + whole.g + whole.b));
+                sums[task] +=
+                    glm::dvec2(double(sum.r + sum.g + sum.b), double(whole.r + whole.g + whole.b));
             }
         }
     });
     glm::dvec2 all(0.0);
     for (const glm::dvec2& sum : sums)
         all += sum;
-    // √(Σ d² / 3n) / (Σ H / 3n)
-    return all.y > 0.0 ? std::sqrt(3.0 * double(work_.order.size()) * all.x) / all.y : 0.0;
+    return all.y > 0.0 ? 1.0 - all.x / all.y : 0.0;
 }
 
 std::optional<LinkRadiosity::LampsLight>
@@ -203,7 +202,7 @@ LinkRadiosity::light_of_lamps(const std::function<bool(double)>& progress)
     }
     if (direct_ && parts_wanted_ != Parts::indirect)
         add_direct_lamps(found.lamps, squares);
-    found.scaled = make_sum_exact(found.lamps);
+    found.missing = make_sum_exact(found.lamps);
     for (std::size_t k = 0; k < found.lamps.size(); ++k) {
         double light = 0.0, lumels = 0.0;
         for (std::size_t i = 0; i < count; ++i)

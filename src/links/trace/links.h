@@ -99,9 +99,9 @@ public:
     const LampTable* lamps() const { return lamps_ ? &*lamps_ : nullptr; }
     struct LampsLight {
         std::vector<LampLight> lamps;  ///< [lamps()]
-        /// RMS difference, relative to the mean light, of the sum of lamps as they were solved for
-        /// from irradiance(), to which they are then scaled.
-        double scaled = 0.0;
+        /// Share of the whole light that was no lamp's before they were scaled to add up to it;
+        /// negative: they had more. In the mean, only what sweeps leave out.
+        double missing = 0.0;
     };
     /// The light of each lamp, whose sum is irradiance(); empty if progress returns false. Ends the
     /// solution: a round in progress is dropped. Call it once.
