@@ -135,7 +135,9 @@ void LinkRadiosity::add_direct_lamps(std::vector<LampLight>& lamps, std::vector<
 {
     const std::size_t count = work_.lumels().size();
     const Estimates &one = direct_->half(0), &other = direct_->half(1);
-    const std::vector<double> left = error_left(filter(), plain_mean(one, other), direct_mean_);
+    // Before the first estimate, the whole is not filtered either.
+    const ChartFilter* const by = direct_mean_.light.empty() ? nullptr : filter();
+    const std::vector<double> left = error_left(by, plain_mean(one, other), direct_mean_);
     std::vector<Estimates> means(lamps.size(), Estimates(count));
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp)
         for (std::size_t i = 0; i < count; ++i) {
@@ -143,8 +145,8 @@ void LinkRadiosity::add_direct_lamps(std::vector<LampLight>& lamps, std::vector<
             const glm::vec3 apart = direct_->lamp_apart(i, lamp);
             squares[lamp] += left[i] * 0.25 * double(glm::dot(apart, apart));
         }
-    if (filter())
-        filter()->direct_parts(one, other, means);
+    if (by)
+        by->direct_parts(one, other, means);
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp)
         add_positive(lamps[lamp].irradiance, means[lamp]);
 }
