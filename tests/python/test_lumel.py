@@ -199,14 +199,14 @@ class Bakes(unittest.TestCase):
 
     def test_lamps_add_up(self) -> None:
         scene = lumel.Scene.load(ROOM)
-        baked = lumel.bake(scene, size=64, shots=12, per_lamp=True)
+        baked = lumel.bake(scene, size=128, shots=12, per_lamp=True)
         self.assertEqual(list(baked.lamps), ["window", "lamp shade"])
         both = sum(map_of_one[..., :3] for map_of_one in baked.lamps.values())
         np.testing.assert_allclose(both, baked.map[..., :3], rtol=1e-5, atol=1e-6)
-        joined = lumel.bake(scene, size=64, shots=12, groups={"both": "*"})
+        joined = lumel.bake(scene, size=128, shots=12, groups={"both": "*"})
         np.testing.assert_allclose(joined.lamps["both"], joined.map, rtol=1e-5)
         with self.assertRaisesRegex(lumel.Error, "^groups.*fits no lamp"):
-            lumel.bake(scene, size=64, shots=12, groups={"both": "nobody"})
+            lumel.bake(scene, size=128, shots=12, groups={"both": "nobody"})
 
     def test_none_is_the_default(self) -> None:
         names = ("densities", "directional", "gutter", "max_size", "method", "options", "parts", "sides", "seed")

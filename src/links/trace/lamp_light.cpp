@@ -59,45 +59,50 @@ void LinkRadiosity::drop_round_in_progress()
     }
 }
 
+/// brought() of kLampLanes lamps at once [N][kLampLanes]. received: their X [P][kLampLanes].
+std::vector<glm::vec3> LinkRadiosity::brought_by(const LampsReflected& reflected,
+                                                 const SourceTerm& source, const LinkTable& links,
+                                                 const std::vector<glm::vec3>& received) const
+{
+    std::vector<glm::vec3> light(work_.lumels().size() * kLampLanes, glm::vec3(0.0f));
+    parallel_for(work_.lumels().size(), kLumelsPerTask, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+            float rays = 0.0f;
+            for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
+                rays += source.rays[p];
+            for (std::uint32_t p = parts_->first(i); rays > 0.0f && p < parts_->end(i); ++p) {
+                const LaneLight<kLampLanes> sky = reflected.of_sky(links.sky[p]);
+                for (std::size_t lane = 0; lane < kLampLanes; ++lane) {
+                    const glm::vec3 all = source.rays[p] * received[p * kLampLanes + lane];
+                    const glm::vec3 first(sky[lane]);
+                    light[i * kLampLanes + lane] +=
+                        (parts_wanted_ == Parts::all      ? all
+                         : parts_wanted_ == Parts::direct ? first
+                                                          : all - first) /
+                        rays;
+                }
+            }
+        }
+    });
+    return light;
+}
+
+/// The links of one solution tell what surfaces send, a gather along those of each what arrives.
 LinkRadiosity::LampSolutions LinkRadiosity::solve_lamps(const LampsReflected& reflected)
 {
     LampSolutions found;
-    std::vector<glm::vec3> received, bounced;
+    std::vector<glm::vec3> bounced;
     for (std::size_t k = 0; k < kSolutions; ++k) {
-        const SourceTerm source =
-            find_source_term(work_, *parts_, *numbers_, reflected, *links_[k]);
-        // The links of one solution tell what surfaces send, a gather along those of each what
-        // arrives.
+        const LinkTable& links = *links_[k];
+        const SourceTerm source = find_source_term(work_, *parts_, *numbers_, reflected, links);
         if (k == 0) {
-            solver_->solve_lamps(*links_[k], source, std::max(sweep_residual(), kLampResidual),
-                                 bounced);
-            received = bounced;
+            solver_->solve_lamps(links, source, std::max(sweep_residual(), kLampResidual), bounced);
+            found.light[k] = brought_by(reflected, source, links, bounced);
         } else {
-            received = bounced;
-            solver_->gather_lamps(*links_[k], source, received);
+            std::vector<glm::vec3> received = bounced;
+            solver_->gather_lamps(links, source, received);
+            found.light[k] = brought_by(reflected, source, links, received);
         }
-        std::vector<glm::vec3>& light = found.light[k];
-        light.assign(work_.lumels().size() * kLampLanes, glm::vec3(0.0f));
-        parallel_for(work_.lumels().size(), kLumelsPerTask, [&](std::size_t from, std::size_t to) {
-            for (std::size_t i = from; i < to; ++i) {
-                float rays = 0.0f;
-                for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
-                    rays += source.rays[p];
-                if (!(rays > 0.0f))
-                    continue;
-                for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
-                    const LaneLight<kLampLanes> sky = reflected.of_sky(links_[k]->sky[p]);
-                    for (std::size_t lane = 0; lane < kLampLanes; ++lane) {
-                        const glm::vec3 all = source.rays[p] * received[p * kLampLanes + lane];
-                        const glm::vec3 first(sky[lane]);
-                        light[i * kLampLanes + lane] += parts_wanted_ == Parts::all ? all / rays
-                                                        : parts_wanted_ == Parts::direct
-                                                            ? first / rays
-                                                            : (all - first) / rays;
-                    }
-                }
-            }
-        });
     }
     return found;
 }
