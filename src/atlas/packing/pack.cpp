@@ -202,8 +202,8 @@ int round_up_to_step(double side)
 
 [[noreturn]] void throw_too_small(const Task& task, int side)
 {
-    const int enough = std::max(round_up_to_step(kSideGrowth * std::sqrt(task.footprint(0.0))),
-                                side + kSideStep);
+    const int enough =
+        std::max(round_up_to_step(kSideGrowth * std::sqrt(task.footprint(0.0))), side + kSideStep);
     throw Error(ErrorKind::input, "",
                 fmt::format("{} charts do not fit into a map of {} × {} texels even at {}; use "
                             "{} × {} or more",
