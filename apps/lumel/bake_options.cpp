@@ -94,13 +94,7 @@ void add_file_options(Command& command, BakeArguments& bake)
 void set_links(const Command& command, const GivenLinks& links, BakeOptions& options)
 {
     options.keep_links = links.keep;
-    const bool per_lamp = links.per_lamp || !links.groups.empty();
-    check_per_lamp(options, per_lamp);
-    if (per_lamp) {
-        auto& kept_apart = std::get<LinksOptions>(options.solver.method);
-        kept_apart.per_lamp = true;
-        kept_apart.groups = links.groups;
-    }
+    set_per_lamp(options, links.per_lamp, links.groups);
     if (!command.given("--links"))
         return;
     auto* method = std::get_if<LinksOptions>(&options.solver.method);

@@ -91,14 +91,10 @@ BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
     options.directional = directional_of(settings.directional);
     check_parts(options);
     options.solver = limits_of(settings);
-    const bool per_lamp = settings.per_lamp || !settings.groups.empty();
-    check_per_lamp(options, per_lamp);
-    if (per_lamp) {
-        auto& links = std::get<LinksOptions>(options.solver.method);
-        links.per_lamp = true;
-        for (const LampGroup& group : settings.groups)
-            links.groups.push_back({group.name, group.pattern});
-    }
+    std::vector<lumel::LampGroup> groups;
+    for (const LampGroup& group : settings.groups)
+        groups.push_back({group.name, group.pattern});
+    set_per_lamp(options, settings.per_lamp, std::move(groups));
     options.max_memory = settings.max_memory;
     options.preview_width = 0;
     options.atlas = checked_options(settings.atlas);

@@ -28,7 +28,7 @@ struct LightSource {
 /// The sky, the lamps, then instances with an emissive lumel, in scene order. Omits lamps without
 /// light.
 std::vector<LightSource> light_sources(const Scene& scene, const Lumels& lumels);
-/// The same of these emissive instances, in scene order.
+/// As above, with these emissive instances, in scene order.
 std::vector<LightSource> light_sources(const Scene& scene,
                                        const std::vector<std::uint32_t>& instances);
 

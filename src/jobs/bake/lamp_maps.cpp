@@ -11,8 +11,8 @@
 #include "base/core/parallel.h"
 #include "base/images/image_files.h"
 #include "base/json/json_file.h"
+#include "jobs/bake/outputs.h"
 #include "results/record/bake_record.h"
-#include "results/record/origin.h"
 
 namespace lumel {
 namespace {
@@ -24,10 +24,11 @@ constexpr std::size_t kTexelsPerTask = 4096;
 /// For the difference of the sum, texels darker than this × the brightest count as that bright.
 constexpr float kDarkestCounted = 1e-6f;
 
-/// At most so many bytes of UTF-8 text, without a part of a letter at the end.
+/// Cuts UTF-8 text to at most `most` bytes, between two characters.
 std::string beginning_of(const std::string& text, std::size_t most)
 {
-    constexpr unsigned char kTopBits = 0xC0, kContinued = 0x80;  // of a byte that goes on a letter
+    constexpr unsigned char kTopBits = 0xC0,
+                            kContinued = 0x80;  // of a byte that continues a character
     std::size_t end = std::min(most, text.size());
     while (end > 0 && end < text.size() &&
            (static_cast<unsigned char>(text[end]) & kTopBits) == kContinued)
@@ -105,11 +106,16 @@ glm::dvec3 colour_of(const std::vector<glm::vec3>& irradiance)
 
 }  // namespace
 
-void check_per_lamp(const BakeOptions& options, bool wanted)
+void set_per_lamp(BakeOptions& options, bool wanted, std::vector<LampGroup> groups)
 {
-    if (wanted && !std::holds_alternative<LinksOptions>(options.solver.method))
+    if (!wanted && groups.empty())
+        return;
+    auto* const links = std::get_if<LinksOptions>(&options.solver.method);
+    if (!links)
         throw Error(ErrorKind::input, "--per-lamp with another solver",
                     "is not possible: only --solver links keeps the light of lamps apart");
+    links->per_lamp = true;
+    links->groups = std::move(groups);
 }
 
 std::optional<LampLights> keep_lamps_apart(Solver& solver, Stages& stages)
@@ -177,12 +183,7 @@ std::vector<std::string> write_lamps(const OutputFolder& folder, const BakeOptio
             files.push_back(page_name(pages, page, names[k]) + ".exr");
             write_exr(folder.path(files.back()), cut_page(pages, page, maps[k]),
                       options.half ? Precision::float16 : Precision::float32,
-                      {{"quantity", "irradiance"},
-                       {"unit", "lx"},
-                       {"colorSpace", "linear Rec. 709"},
-                       {"alpha", "coverage"},
-                       {"sceneHash", prepared.scene.hash},
-                       {"software", "lumel " + lumel_version()}});
+                      map_metadata(prepared.scene));
         }
         rows.push_back({{"name", lamp.name},
                         {"kind", lamp.kind},

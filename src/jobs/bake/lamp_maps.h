@@ -21,8 +21,9 @@ struct LampLights {
     std::vector<LinkRadiosity::LampLight> light;  ///< [lamps]
 };
 
-/// Throws Error{input} if lamps are to be kept apart by a method other than links.
-void check_per_lamp(const BakeOptions& options, bool wanted);
+/// Keeps lamps apart if that is wanted or there are groups. Throws Error{input} for a method other
+/// than links.
+void set_per_lamp(BakeOptions& options, bool wanted, std::vector<LampGroup> groups);
 
 /// The light of lamps that a solver kept apart, in a stage of its own; empty if it did not, or the
 /// bake was stopped, which is told.

@@ -51,16 +51,20 @@ void warn_of_clipping(const Image& map, const std::string& name, Stages& stages)
 
 }  // namespace
 
+std::map<std::string, std::string> map_metadata(const Scene& scene)
+{
+    return {{"quantity", "irradiance"},        {"unit", "lx"},
+            {"colorSpace", "linear Rec. 709"}, {"alpha", "coverage"},
+            {"sceneHash", scene.hash},         {"software", "lumel " + lumel_version()}};
+}
+
 float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
                 const SolveScene& prepared, Stages& stages, float exposure,
                 std::span<const Layer> directional)
 {
     if (half)
         warn_of_clipping(map, name, stages);
-    std::map<std::string, std::string> metadata = {
-        {"quantity", "irradiance"},         {"unit", "lx"},
-        {"colorSpace", "linear Rec. 709"},  {"alpha", "coverage"},
-        {"sceneHash", prepared.scene.hash}, {"software", "lumel " + lumel_version()}};
+    std::map<std::string, std::string> metadata = map_metadata(prepared.scene);
     if (!directional.empty())
         metadata.merge(directional_metadata());
     if (exposure <= 0.0f)

@@ -1,6 +1,7 @@
 #pragma once
 // Writes a solved scene to the files of a bake.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,9 @@ struct Results {
     DirectionalLight directional;  ///< empty if not requested
     std::optional<LampLights> per_lamp = {};
 };
+
+/// Metadata of an EXR file of irradiance.
+std::map<std::string, std::string> map_metadata(const Scene& scene);
 
 /// Writes a finished map as NAME.exr [lx], with layers, and NAME.png for display; several pages as
 /// NAME-0.exr and so on. exposure: of the PNG [1/lx], 0: fitted to the map. Returns it. Warns of

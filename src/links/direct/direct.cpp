@@ -498,12 +498,13 @@ bool DirectEstimator::fits() const
            std::ranges::all_of(blocks_, are_lumels);
 }
 
-std::uint64_t DirectEstimator::bytes(std::size_t lumels, std::size_t varying, std::size_t lamps)
+std::uint64_t DirectEstimator::bytes(std::size_t lumels, std::size_t varying, std::size_t lamps,
+                                     std::size_t varying_by_lamp)
 {
     constexpr std::size_t kOfLumel =
         2 * sizeof(glm::vec3) + 5 * sizeof(std::uint32_t) + sizeof(char);
     return lumels * (kOfLumel + lamps * 2 * sizeof(glm::vec3)) +
-           varying * (1 + lamps) * sizeof(OfCells);
+           (varying + lamps * varying_by_lamp) * sizeof(OfCells);
 }
 
 bool DirectEstimator::step()

@@ -23,12 +23,14 @@ namespace lumel {
 class DirectEstimator {
 public:
     /// The work must outlive this. parts: sub-lumels, across which no light passes, or null. lamps:
-    /// whose light is kept apart too, by the same rays, or null.
+    /// whose light the same rays also record separately, or null.
     DirectEstimator(const LinkWork& work, std::uint32_t seed, const SubLumels* parts = nullptr,
                     const LampTable* lamps = nullptr);
 
-    /// Memory [bytes]. varying: number of lumels stored per cell. lamps: kept apart.
-    static std::uint64_t bytes(std::size_t lumels, std::size_t varying, std::size_t lamps);
+    /// Memory [bytes]. varying: number of lumels stored per cell; of lamps, which are kept apart:
+    /// varying_by_lamp.
+    static std::uint64_t bytes(std::size_t lumels, std::size_t varying, std::size_t lamps,
+                               std::size_t varying_by_lamp);
 
     /// Runs part of a pass. Returns true if work is left.
     bool step();
@@ -118,7 +120,7 @@ private:
             archive(index, cells);
         }
     };
-    /// The same of some lumels, as a pass finds it.
+    /// Light by cell that a pass found in some lumels.
     struct FoundCells {
         std::vector<std::uint32_t> lumel;
         std::vector<glm::vec3> cells;  ///< [lumels][kCells][kinds]

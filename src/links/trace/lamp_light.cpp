@@ -157,8 +157,8 @@ void LinkRadiosity::add_direct_lamps(std::vector<LampLight>& lamps, std::vector<
 }
 
 /// Scales the lamps of each lumel so that they add up to its light: their sweeps end at a residual,
-/// and no light is negative. Light without a lamp goes to the brightest of the lumel before.
-/// Returns the RMS of what is missing or too much, relative to the mean.
+/// and no light is negative. Light without a lamp goes to the brightest lamp of the
+/// previous lumel. Returns LampsLight::missing.
 double LinkRadiosity::make_sum_exact(std::vector<LampLight>& lamps) const
 {
     const std::size_t tasks = (work_.order.size() + kLumelsPerTask - 1) / kLumelsPerTask;

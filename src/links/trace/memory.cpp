@@ -22,6 +22,9 @@ constexpr double kShareBytes = 0.4 * double(sizeof(NearShare));
 constexpr double kGuideBytes = sizeof(std::uint32_t) + sizeof(RayGuide::Table) / 32.0;
 /// Fraction of lumels with direct light per cell: maximum seen.
 constexpr double kVarying = 0.1;
+/// The same of lamps kept apart: half of the lumels, twice while a pass replaces them, as seen with
+/// sixteen lamps.
+constexpr double kVaryingByLamp = 2 * 0.5;
 constexpr double kShareOfFree = 0.5;
 
 }  // namespace
@@ -63,10 +66,11 @@ std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, 
         kSolutions * (kOfSources + sizeof(glm::vec3)) + kOfGroups + sizeof(glm::vec3);
     const std::size_t of_lumels =
         sizeof(WorldLumel) + kOfOrder + kOfNoise + 2 * kOfMean + sizeof(std::uint16_t);
-    const auto varying = std::size_t(kVarying * double(lumels));
+    const auto varying = std::size_t(kVarying * double(lumels)),
+               by_lamp = std::size_t(kVaryingByLamp * double(lumels));
     return lumels * (of_lumels + of_parts) + pieces * (sizeof(Piece) + sizeof(Facet)) +
            Cells::bytes(lumels) + SubLumels::bytes(lumels, lumels) +
-           DirectEstimator::bytes(lumels, varying, lamps) + NearLumels::bytes(texels) +
+           DirectEstimator::bytes(lumels, varying, lamps, by_lamp) + NearLumels::bytes(texels) +
            ChartFilter::bytes(lumels, texels);
 }
 

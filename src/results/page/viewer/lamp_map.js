@@ -7,8 +7,8 @@
 //
 // Lamps as baked give a = 1 and so W itself, and dimming all of them dims it. The sharp shadow of a lamp that is off
 // does not show, because S does not follow it; S W / W' instead would leave its outline in the light of all others.
-// Differs from the paper: the window is a texel and its four neighbours, ε pulls a to S / W' and not to 0, and b is
-// that of the texel, not a mean over the window.
+// Differs from the paper: the window is a texel and its four neighbours, ε draws a towards S / W',
+// not 0, and each texel keeps its own b instead of the window's mean.
 //
 // H is linear in the lamps. So while one lamp is dimmed, its light and that of all others stay as they are, at full
 // size, and only their sum is made again.
