@@ -204,7 +204,7 @@ void add_dynamic(CLI::App& app, DynamicSettings& settings, Report& report)
     add_given(figure, settings.shared, "batch");
     add_number(figure, "--degrees", settings.degrees, "that the box turns in a step");
     add_residual(figure, settings.residual);
-    add_number(figure, "--steps", settings.steps, "after the first; the fastest counts");
+    add_number(figure, "--steps", settings.steps, "after the first, of which the median counts");
     add_number(figure, "--reference-spp", settings.shared.reference_spp,
                "paths per lumel for the truth; 0: none", 0);
     figure->add_flag("!--no-gather", settings.gathers, "leaves gathering out, which takes longest");

@@ -104,7 +104,7 @@ struct DynamicSettings {
     int low_size = 64;                ///< side of the low quality scene's map [texels]
     int degrees = 10;                 ///< that the box turns in a step
     double residual = LiveOptions{}.residual;  ///< to rest at
-    int steps = 3;                             ///< after the first, of which the fastest counts
+    int steps = 5;                             ///< after the first, whose median counts
     bool gathers = true;
     std::vector<int> pieces{14, 41};  ///< that edges are cut into, for more vertices; 1 is the rest
 };

@@ -61,10 +61,11 @@ constexpr Run kRuns[] = {
      "directions -o {out}",
      "directions --size 32 --map-side 64 --directions 4 --width 16 -o {out}"},
     {"moves", "A box that turns",
-     "An update, from the move until 0.2 % of all light is unshot, and of its "
-     "redistribution alone; a table of errors for either state. Errors are of the lumels' "
+     "An update, from the move until 0.05 % of all light is unshot, and of its "
+     "redistribution alone: the median of the moves, or of the solutions from scratch, after the "
+     "first; a table of errors for either state. Errors are of the lumels' "
      "irradiance; the thesis has them of pictures.",
-     "dynamic --hemicube 64 --size 64 --low-size 32 --steps 1 --reference-spp 512 --no-gather "
+     "dynamic --hemicube 64 --size 64 --low-size 32 --steps 3 --reference-spp 512 --no-gather "
      "--pieces 1",
      "dynamic --hemicube 64 --no-gather --pieces 1",
      "dynamic --size 16 --low-size 16 --hemicube 16 --steps 1 --reference-spp 4 "

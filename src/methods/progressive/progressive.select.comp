@@ -5,7 +5,8 @@
 
 // Chooses the patches of a batch, [Hoef13] Algorithm 4.2: those of the chart with the most unshot
 // power per patch, one after another, then those of the next such chart. The cursor persists
-// between batches, without readback.
+// between batches, without readback. A chart is chosen at most once per batch: the batch sends the
+// light that was unshot before it, and what is sent twice is marked as shot once.
 //
 // Dynamic shooter subdivision, section 4.3.3: a chart shoots at the coarsest level at which no
 // patch sends more than a set part of all light. It keeps its level, so that its light can be taken
@@ -101,7 +102,7 @@ void begin_chart(uint c)
     cursor.count = patches_of(chart, cursor.level);
     if (cursor.send == kSendBack)
         levels[c] = wanted;
-    lights[c].power = 0.0;  // only once per batch
+    lights[c].power = 0.0;
 }
 
 // All points of a lumel shoot in one batch.
@@ -120,9 +121,12 @@ void main()
     const ChartLight sum = add_over_group(mine);
     if (me == 0u) {
         cursor = kept_cursor;
+        if (cursor.next < cursor.count)
+            lights[cursor.chart].power = 0.0;
         ambient = ambient_of(sum);
         patch_power = p.patch_share * max(luminance(sum.shot + sum.unshot), 1e-30);
     }
+    memoryBarrierBuffer();
     barrier();
     for (uint k = 0u; k < p.batch; ++k) {
         if (cursor.next >= cursor.count) {
@@ -130,6 +134,7 @@ void main()
             if (me == 0u && best_chart[0] != kNoPatch)
                 begin_chart(best_chart[0]);
         }
+        memoryBarrierBuffer();  // power of the chart that began
         barrier();
         if (me == 0u) {
             const bool any = cursor.next < cursor.count && fits(k);

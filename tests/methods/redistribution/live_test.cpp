@@ -248,6 +248,27 @@ TEST_P(LiveScenes, ShortBudgetsEndLikeOneLongCall)
     EXPECT_LE(apart(at_once, bit_by_bit.irradiance(), at_once.irradiance()), 0.001);
 }
 
+// All light that arrived is light that patches have shot, so it follows the lamp.
+TEST_P(MovedBox, IsLitHalfAsMuchByHalfTheLamp)
+{
+    const Moved& given = GetParam();
+    const Scene scene =
+        read_gltf(support::source_path("scenes/" + std::string(given.scene) + ".gltf"));
+    LiveOptions options = options_for(scene, given.redistribution);
+    options.atlas.size = given.side;
+    options.solver.views.hemicube = kSmallHemicube;
+    LiveScene live(device, scene, options);
+    live.move(options.movers[0], shifted(scene, 0.0f, glm::radians(20.0f)));
+    live.settle();
+    std::vector<glm::vec3> half = live.irradiance();
+    for (glm::vec3& irradiance : half)
+        irradiance *= 0.5f;
+    live.set_emission(find_instance(scene, "lamp"), glm::vec3(0.5f));
+    live.settle();
+    // Both may leave the residual unshot; cross redistribution may leave it uncrossed as well.
+    EXPECT_LE(apart(live, live.irradiance(), half), 3.0 * options.residual);
+}
+
 TEST_P(LiveScenes, ABoxThatNeverStopsIsShownAllTheSame)
 {
     const Scene scene = room_with_a_box();
