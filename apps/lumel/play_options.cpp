@@ -20,8 +20,12 @@ constexpr const char* kAnimationGroup = "Animation";
 
 constexpr double kMinLeak = 1e-4, kMaxLeak = 0.5;
 
-const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution::incremental},
-                                                  {"cross", Redistribution::cross}};
+const Choices<Redistribution> kRedistributions = {
+    {"incremental", Redistribution::incremental},
+    {"cross", Redistribution::cross},
+    {"paper-incremental", Redistribution::paper_incremental},
+    {"paper-cross", Redistribution::paper_cross},
+    {"paper-cross-incremental", Redistribution::paper_cross_incremental}};
 
 const Choices<Film> kFilms = {{"mp4", Film::mp4}, {"webm", Film::webm}, {"none", Film::none}};
 
@@ -46,7 +50,8 @@ void add_follow_options(Command& command, PlayOptions& options)
                 {"--redistribution", "",
                  "With --solver progressive, update after a move: incremental shoots again past "
                  "the old and the new position and is as exact as a new solution; cross uses only "
-                 "views from the moved objects, which is faster if they are small"}),
+                 "views from the moved objects, which is faster if they are small; paper-... as in "
+                 "[Hoef13], for comparison"}),
          {"--leak", "F",
           "With --solver directions, the share of the running mean that each direction replaces; "
           "higher values follow changes faster but are noisier",

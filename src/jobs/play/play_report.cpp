@@ -5,6 +5,27 @@
 #include "results/record/solver_settings.h"
 
 namespace lumel {
+namespace {
+
+/// As on the command line.
+const char* redistribution_name(Redistribution redistribution)
+{
+    switch (redistribution) {
+    case Redistribution::incremental:
+        return "incremental";
+    case Redistribution::cross:
+        return "cross";
+    case Redistribution::paper_incremental:
+        return "paper-incremental";
+    case Redistribution::paper_cross:
+        return "paper-cross";
+    case Redistribution::paper_cross_incremental:
+        return "paper-cross-incremental";
+    }
+    return "";
+}
+
+}  // namespace
 
 Report play_report(const PlayOptions& options, const PlayedLight& light, const gpu::Device& device,
                    int height, std::vector<FrameRow> frames, const Stages& stages)
@@ -28,8 +49,7 @@ Report play_report(const PlayOptions& options, const PlayedLight& light, const g
         for (const char* unread : {"sampling", "rays"})
             (*report.solver)["options"].erase(unread);
     } else
-        report.settings["redistribution"] =
-            options.redistribution == Redistribution::cross ? "cross" : "incremental";
+        report.settings["redistribution"] = redistribution_name(options.redistribution);
     report.settings.update(atlas_settings(options.atlas));
     report.shots = light.shots();
     report.frames = std::move(frames);

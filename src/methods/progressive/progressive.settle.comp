@@ -18,6 +18,9 @@ void main()
     const PatchShot s = shots[k];
     if (chosen[k].index % s.parts != 0u)  // the first point of a lumel represents all
         return;
-    for (uint j = s.first; j < s.first + s.count; ++j)
-        shot[j] = chosen[k].send == kSendBack ? vec3(0.0) : shot[j] + sending[j] * float(s.parts);
+    const uint send = chosen[k].send;
+    for (uint j = s.first; j < s.first + s.count; ++j) {
+        const vec3 before = send == kSendTotal ? vec3(0.0) : shot[j];
+        shot[j] = send == kSendBack ? vec3(0.0) : before + sending[j] * float(s.parts);
+    }
 }

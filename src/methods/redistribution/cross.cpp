@@ -28,7 +28,6 @@
 // - Close pairs use form factors of the near field: no halos where objects touch.
 // - M's lumels gather from C's by the depth hemicube of their patch, where the thesis multiplies
 //   a hemicube of radiosity by delta form factors.
-//   a hemicube of radiosity by delta form factors.
 
 #include "methods/redistribution/cross.h"
 
@@ -70,7 +69,8 @@ NearField rows_of_still(const NearField& near, const Lumels& lumels)
     return rows;
 }
 
-/// Fronts of all movable patches, and backs of those of open meshes.
+}  // namespace
+
 std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lumels,
                                         const std::vector<char>& open)
 {
@@ -86,8 +86,6 @@ std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lum
         }
     return list;
 }
-
-}  // namespace
 
 CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world,
                                          const Lumels& lumels, ProgressiveRadiosity& solver,

@@ -16,6 +16,10 @@
 
 namespace lumel {
 
+/// Fronts of all movable patches, and backs of those of open meshes. open [instances].
+std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lumels,
+                                        const std::vector<char>& open);
+
 /// Redistributes light shot among static lumels, batch by batch.
 class CrossRedistribution {
 public:

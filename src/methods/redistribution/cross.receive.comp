@@ -5,7 +5,6 @@
 #include "raster/world/lumel.glsl"
 #include "raster/eyes/sees.glsl"
 #include "raster/eyes/hemicube.glsl"
-#include "methods/redistribution/cross.back.glsl"
 #include "raster/near/near_pairs.glsl"
 #include "raster/near/near_factor.glsl"
 #include "solve/shooting/receiver.glsl"
@@ -24,7 +23,7 @@ layout(push_constant, scalar) uniform Params { CrossReceiveParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) readonly buffer Shots { PatchShot shots[]; };
 layout(scalar) readonly buffer Sent { vec3 shot[]; };
-layout(scalar) readonly buffer Back { BackPixel back[]; };
+#include "methods/redistribution/cross.behind.glsl"
 layout(scalar) buffer Fresh { vec3 fresh[]; };
 
 // Rays through a lumel, along each of its sides, per radian that it subtends at the receiver; and
@@ -37,44 +36,13 @@ const float kTouching = 0.01;
 // Minimum distance for angles [m].
 const float kMinDistance = 1e-6;
 
-ViewPoint point_in(uint side, vec3 direction)
-{
-    return project_to_hemicube(EyeViewLayout(side, 1u, 1.0), direction);
-}
-
-// 1 / distance at the pixel of a back hemicube in a direction (t, b, n of the back eye; n ≥ 0).
-float inverse_behind(uint k, vec3 direction)
-{
-    const ViewPoint f = point_in(p.back.side, direction);
-    return back[back_pixel(p.back, k, 0u, uvec2(face_corner(p.back.side, f) + f.pixel))].inverse;
-}
-
-// Light in that direction, filtered over the four nearest pixels of a level, but not across the
-// edges of faces [Hoef13] 4.5.2.
-vec3 level_behind(uint k, uint level, vec3 direction)
-{
-    const uint side = back_side(p.back, level);
-    const ViewPoint f = point_in(side, direction);
-    const vec2 size = vec2(float(side), f.front ? float(side) : 0.5 * float(side));
-    const vec2 at = clamp(f.at - 0.5, vec2(0.0), size - 1.0);
-    const vec2 low = floor(at), part = at - low, corner = face_corner(side, f);
-    vec3 sum = vec3(0.0);
-    for (uint q = 0u; q < 4u; ++q) {
-        const vec2 step = vec2(q & 1u, q >> 1u);
-        const vec2 weight = mix(1.0 - part, part, step);
-        const uvec2 pixel = uvec2(corner + min(low + step, size - 1.0));
-        sum += weight.x * weight.y * back[back_pixel(p.back, k, level, pixel)].shot;
-    }
-    return sum;
-}
-
 // Light in that direction, interpolated between two levels.
 vec3 behind(uint k, float level, vec3 direction)
 {
     const uint fine = uint(level);
     const float part = level - float(fine);
-    const vec3 light = level_behind(k, fine, direction);
-    return part > 0.0 ? mix(light, level_behind(k, fine + 1u, direction), part) : light;
+    const vec3 light = level_behind(p.back, k, fine, direction);
+    return part > 0.0 ? mix(light, level_behind(p.back, k, fine + 1u, direction), part) : light;
 }
 
 // Light behind a patch along the ray from x through y, for a bundle of width `width` at y [m]. The
@@ -87,7 +55,7 @@ vec3 light_along(uint k, mat3 frame, vec3 x, vec3 y, float width)
     const vec3 direction = ray * frame / r;
     if (direction.z <= 0.0)
         return vec3(0.0);
-    const float inverse = inverse_behind(k, direction);
+    const float inverse = inverse_behind(p.back, k, direction);
     if (inverse <= 0.0)
         return vec3(0.0);
     const vec3 toward = (y - eyes[k].position) * frame + direction / inverse;

@@ -31,7 +31,7 @@ Lumels lift_in_place(const Scene& scene, const Atlas& atlas, const std::vector<c
                      Redistribution redistribution)
 {
     Lumels lumels = make_lumels(scene, atlas, movers);
-    if (redistribution == Redistribution::cross)
+    if (crosses(redistribution))
         for (Lumel& lumel : lumels.lumels)
             if (movers[lumel.instance])
                 lumel.flags |= kLumelMoving;
@@ -63,11 +63,11 @@ std::vector<char> open_meshes(const Scene& scene)
     return open;
 }
 
-/// With cross redistribution: near field of static pairs, as if there were no movers.
+/// If crosses(): near field of static pairs, as if there were no movers.
 NearField near_field_of_still(const Scene& scene, const Lumels& lumels,
                               const std::vector<char>& movers, const LiveOptions& options)
 {
-    if (options.redistribution == Redistribution::incremental)
+    if (!crosses(options.redistribution))
         return {};
     const Scene still = without(scene, movers);
     std::vector<char> stays;
@@ -82,7 +82,7 @@ MovingNearField near_field_of_moving(const Scene& scene, const RayScene& rays, c
                                      const std::vector<char>& movers, const LiveOptions& options)
 {
     NearFieldOptions near = near_field_options(options);
-    if (options.redistribution == Redistribution::incremental)
+    if (!crosses(options.redistribution))
         return {scene, rays, lumels, near, movers, NearPairsOf::all};
     near.most_pairs = std::numeric_limits<std::size_t>::max();  // as for static pairs
     return {scene, rays, lumels, near, movers, NearPairsOf::movers};
@@ -120,8 +120,7 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
       world_(device, scene_, lumels_, &atlas_, edits_.movers()),
       lamps_(scene_, options.lights),
       solver_(device, world_, lumels_,
-              options.redistribution == Redistribution::cross ? still_near_ : near_.table(),
-              options.solver),
+              crosses(options.redistribution) ? still_near_ : near_.table(), options.solver),
       rows_(device, world_, solver_, options.solver.views.projection, options.visibility_bytes),
       remaining_(solver_, rows_),
       direct_(device, lumels_.lumels.size()),
@@ -137,6 +136,13 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
     if (options.redistribution == Redistribution::cross)
         cross_.emplace(device, world_, lumels_, solver_, edits_.movers(), open_meshes(scene_),
                        options.visibility_bytes);
+    else if (crosses(options.redistribution))
+        paper_cross_.emplace(
+            device, scene_, world_, lumels_, solver_, edits_.movers(), open_meshes(scene_),
+            options.redistribution == Redistribution::paper_cross ? CrossProjection::whole
+                                                                  : CrossProjection::incremental);
+    else if (options.redistribution == Redistribution::paper_incremental)
+        paper_incremental_.emplace(device, world_, lumels_, solver_, rows_);
     else
         incremental_.emplace(device, world_, lumels_, solver_, rows_);
     moving_share_ = share_of(edits_.movers(), lumels_);
@@ -144,7 +150,7 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
         lamps_.find(device, world_, lumels_);
         upload_surfaces();
     }
-    world_.show_movers(!cross_);
+    world_.show_movers(!crosses(options_.redistribution));
     show();
 }
 
@@ -215,13 +221,38 @@ bool LiveScene::is_under_way() const
 
 bool LiveScene::is_redistributing() const
 {
-    return cross_ ? cross_->is_under_way() : incremental_->is_under_way();
+    return cross_               ? cross_->is_under_way()
+           : paper_cross_       ? paper_cross_->is_under_way()
+           : paper_incremental_ ? paper_incremental_->is_under_way()
+                                : incremental_->is_under_way();
+}
+
+bool LiveScene::begin_incremental()
+{
+    return paper_incremental_ ? paper_incremental_->begin(move_) : incremental_->begin(move_);
+}
+
+/// Runs one batch of the redistribution. Returns false when finished.
+bool LiveScene::continue_redistribution()
+{
+    return cross_               ? cross_->step()
+           : paper_cross_       ? paper_cross_->step()
+           : paper_incremental_ ? paper_incremental_->step()
+                                : incremental_->step();
+}
+
+std::uint64_t LiveScene::redistribution_hemicubes() const
+{
+    return cross_               ? cross_->hemicubes()
+           : paper_cross_       ? paper_cross_->hemicubes()
+           : paper_incremental_ ? paper_incremental_->hemicubes()
+                                : incremental_->hemicubes();
 }
 
 bool LiveScene::is_at_rest() const
 {
     return !is_under_way() && !edits_.is_move_requested() && state_.residual <= options_.residual &&
-           (!cross_ || is_crossed());
+           (!crosses(options_.redistribution) || is_crossed());
 }
 
 /// True if the effect of movers is accurate enough. Movers receive their share of unshot light, and
@@ -248,8 +279,10 @@ void LiveScene::begin_move()
         move_.transforms.push_back(instance.transform);
     }
     world_.bound(scene_);
+    if (paper_cross_)
+        return paper_cross_->begin(move_.transforms, !move_.boxes.empty());
     if (!cross_) {
-        if (!move_.boxes.empty() && !incremental_->begin(move_))
+        if (!move_.boxes.empty() && !begin_incremental())
             end_move();
         return;
     }
@@ -285,7 +318,7 @@ void LiveScene::follow_move()
 
 void LiveScene::end_move()
 {
-    if (cross_) {
+    if (crosses(options_.redistribution)) {
         crossed_ = true;
         uncrossed_ = 0.0;
     } else {
@@ -315,10 +348,10 @@ void LiveScene::work()
             settle_move();
         }
     } else if (is_redistributing()) {
-        if (cross_ ? !cross_->step() : !incremental_->step())
+        if (!continue_redistribution())
             end_move();
-    } else if (edits_.is_move_requested() ||
-               (cross_ && !is_crossed() && state_.residual <= options_.residual)) {
+    } else if (edits_.is_move_requested() || (crosses(options_.redistribution) && !is_crossed() &&
+                                              state_.residual <= options_.residual)) {
         if (unseen_)
             show();  // also shows objects in constant motion
         begin_move();
@@ -330,7 +363,7 @@ void LiveScene::work()
 
 void LiveScene::shoot()
 {
-    world_.show_movers(!cross_);
+    world_.show_movers(!crosses(options_.redistribution));
     if (corrects_ && !remaining_.is_under_way())
         corrects_ = remaining_.begin(kLeftOutside * options_.residual / state_.residual);
     if (!corrects_) {
@@ -362,8 +395,7 @@ LiveState LiveScene::update(double budget_ms)
     }
     state_.under_way = is_under_way();
     state_.at_rest = is_at_rest();
-    state_.hemicubes = solver_.state().shots + remaining_.hemicubes() +
-                       (cross_ ? cross_->hemicubes() : incremental_->hemicubes());
+    state_.hemicubes = solver_.state().shots + remaining_.hemicubes() + redistribution_hemicubes();
     state_.milliseconds = ms_since(start);
     return state_;
 }

@@ -13,6 +13,8 @@
 #include "methods/redistribution/cross.h"
 #include "methods/redistribution/incremental.h"
 #include "methods/redistribution/live.show.comp.h"
+#include "methods/redistribution/paper_cross.h"
+#include "methods/redistribution/paper_incremental.h"
 #include "methods/redistribution/remaining_light.h"
 #include "methods/redistribution/visibility_rows.h"
 #include "raster/shadow_maps/live_lamps.h"
@@ -25,7 +27,18 @@ namespace lumel {
 enum class Redistribution {
     incremental,  ///< exact: all patches that shot render views of moved objects
     cross,        ///< only movable patches render views: much faster for small objects
+    // As in [Hoef13]:
+    paper_incremental,        ///< merged with a progressive iteration of all static patches
+    paper_cross,              ///< lamps are crossed as well: undersamples small ones
+    paper_cross_incremental,  ///< the incremental cross projection: errors accumulate
 };
+
+/// True if only movable patches render views.
+inline bool crosses(Redistribution redistribution)
+{
+    return redistribution != Redistribution::incremental &&
+           redistribution != Redistribution::paper_incremental;
+}
 
 struct LiveOptions {
     AtlasOptions atlas;
@@ -101,6 +114,9 @@ private:
     bool is_redistributing() const;
     bool is_at_rest() const;
     bool is_crossed() const;
+    bool begin_incremental();
+    bool continue_redistribution();
+    std::uint64_t redistribution_hemicubes() const;
 
     const gpu::Device* device_;
     LiveOptions options_;
@@ -109,15 +125,17 @@ private:
     Atlas atlas_;
     Lumels lumels_;
     RayScene rays_;
-    NearField still_near_;  ///< with Redistribution::cross: of static pairs
+    NearField still_near_;  ///< if crosses(): of static pairs
     MovingNearField near_;  ///< for all pairs; with Redistribution::cross: for pairs with movers
     World world_;
     LiveLamps lamps_;
     ProgressiveRadiosity solver_;
-    VisibilityRows rows_;  ///< with Redistribution::cross: for the world without movers
+    VisibilityRows rows_;  ///< if crosses(): for the world without movers
     RemainingLight remaining_;
     std::optional<IncrementalRedistribution> incremental_;
+    std::optional<PaperIncremental> paper_incremental_;
     std::optional<CrossRedistribution> cross_;
+    std::optional<PaperCross> paper_cross_;
     Move move_;  ///< current one
     LiveState state_;
     int batches_ = 0;            ///< since the last readback of the residual

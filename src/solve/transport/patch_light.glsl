@@ -2,7 +2,8 @@
 #define LUMEL_TRANSPORT_PATCH_LIGHT_GLSL
 
 // Light from a patch at a point. Declares the batch: `eyes`, `shots`, and the radiosity that the
-// lumels of its patches send, `sending`.
+// lumels of its patches send, `sending`. Before including this, POWER_OF(k) and SENDING_OF(k, j)
+// can be defined as the light that shot k and its lumel j send to the pair instead.
 
 #include "raster/near/near_pairs.glsl"
 #include "solve/shooting/radiosity.glsl"
@@ -13,6 +14,11 @@
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) readonly buffer Shots { PatchShot shots[]; };
 layout(scalar) readonly buffer Sending { vec3 sending[]; };
+
+#ifndef POWER_OF
+#define POWER_OF(k) shots[k].power
+#define SENDING_OF(k, j) sending[j]
+#endif
 
 // Beyond this multiple of the patch's size, the patch counts as one point.
 const float kFar = 4.0;
@@ -27,14 +33,15 @@ vec3 light_without_occluders(Receiver r, uint k, float near_radius)
     const float near_reach = near_radius * max(r.size, s.lumel_size) + r.size;
     const float reach = kFar * s.size + near_reach;
     if (dot(d, d) >= reach * reach)
-        return s.power * point_factor(d, eyes[k].normal, r.normal, 0.0);
+        return POWER_OF(k) * point_factor(d, eyes[k].normal, r.normal, 0.0);
     vec3 sum = vec3(0.0);
     for (uint j = s.first; j < s.first + s.count; ++j) {
         const Lumel lumel = lumels[j];
         if (j == r.lumel || is_near(r.centre, r.size, lumel.position, lumel.size, near_radius))
             continue;
         const vec3 from = s.parts > 1u ? eyes[k].position : lumel.position;
-        sum += sending[j] * (lumel.area * point_factor(r.x - from, lumel.normal, r.normal, 0.0));
+        sum += SENDING_OF(k, j) *
+               (lumel.area * point_factor(r.x - from, lumel.normal, r.normal, 0.0));
     }
     return sum / kPi;
 }

@@ -14,6 +14,7 @@ LUMEL_CONST uint kSendBack = 1u;      ///< minus the shot light: undoes it
 LUMEL_CONST uint kSendShot = 2u;      ///< the shot light again
 LUMEL_CONST uint kSendCrossing = 3u;  ///< the shot light again, even if it is 0
 LUMEL_CONST uint kSendBackSide = 4u;  ///< none, from the side without lumels
+LUMEL_CONST uint kSendTotal = 5u;     ///< shot and unshot light, even if it is 0
 
 struct ChosenPatch {
     uint chart;  ///< kNoPatch: empty entry of the batch

@@ -44,6 +44,8 @@ LumelPoint eye_point(ChosenPatch c, Patch block)
 
 vec3 sent_by(uint j, uint send)
 {
+    if (send == kSendTotal)
+        return unshot_of(j) + shot[j];
     return send == kSendUnshot ? foreseen(j) : send == kSendBack ? -shot[j] : shot[j];
 }
 

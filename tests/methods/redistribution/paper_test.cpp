@@ -1,0 +1,277 @@
+// Redistribution as the thesis has it [Hoef13].
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "../../support/source_folder.h"
+#include "methods/redistribution/live_scene.h"
+#include "scene/values/scene.h"
+
+namespace lumel {
+namespace {
+
+constexpr int kSide = 32;  // of the atlas [texels]
+constexpr int kHemicube = 64;
+
+Scene thesis_room(const char* lamp)
+{
+    return read_gltf(support::source_path("scenes/moving-" + std::string(lamp) + "-lamp.gltf"));
+}
+
+LiveOptions options_of(const Scene& scene, Redistribution redistribution, int side = kSide)
+{
+    LiveOptions options;
+    options.redistribution = redistribution;
+    options.atlas.size = side;
+    options.solver.views.hemicube = kHemicube;
+    options.movers = {find_instance(scene, "box")};
+    return options;
+}
+
+/// Position of the box after a shift toward a wall [m] and a turn [rad].
+glm::mat4 shifted(const Scene& scene, float distance, float angle)
+{
+    const glm::vec3 axis(1.0f, 0.0f, 1.0f);
+    const glm::mat4 shift =
+        glm::translate(glm::mat4(1.0f), axis + glm::vec3(-distance, 0.0f, 0.0f));
+    return glm::translate(glm::rotate(shift, angle, glm::vec3(0, 1, 0)), -axis) *
+           scene.instances[find_instance(scene, "box")].transform;
+}
+
+/// Relative RMSE over static lumels that are not buried.
+double apart(const LiveScene& scene, const std::vector<glm::vec3>& values,
+             const std::vector<glm::vec3>& truth)
+{
+    double square = 0.0, sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (scene.lumels().lumels[i].flags & (kLumelBuried | kLumelMoving))
+            continue;
+        const glm::dvec3 d = glm::dvec3(values[i]) - glm::dvec3(truth[i]);
+        square += glm::dot(d, d);
+        sum += double(truth[i].r) + double(truth[i].g) + double(truth[i].b);
+        count += 3.0;
+    }
+    return std::sqrt(square / count) / (sum / count);
+}
+
+/// H after the move to `place`, in a solution that had the box elsewhere.
+std::vector<glm::vec3> after_move(LiveScene& live, const glm::mat4& place)
+{
+    live.settle();
+    live.move(find_instance(live.scene(), "box"), place);
+    live.settle();
+    return live.irradiance();
+}
+
+/// H of a new incremental solution with the box at `place`, for lumels laid out as in `like`.
+std::vector<glm::vec3> solved_at(const gpu::Device& device, const Scene& scene, LiveOptions options,
+                                 const glm::mat4& place)
+{
+    options.redistribution = Redistribution::incremental;
+    LiveScene fresh(device, scene, options);
+    fresh.move(options.movers[0], place);
+    fresh.settle();
+    return fresh.irradiance();
+}
+
+/// H after six moves and one back to the first position.
+std::vector<glm::vec3> there_and_back(LiveScene& live)
+{
+    constexpr int kMoves = 6;
+    const std::uint32_t box = find_instance(live.scene(), "box");
+    const Scene scene = live.scene();
+    for (int move = 1; move <= kMoves; ++move) {
+        live.move(box, shifted(scene, 0.02f * float(move), 0.1f * float(move)));
+        live.settle();
+    }
+    return after_move(live, scene.instances[box].transform);
+}
+
+/// A device whose validation layers must find nothing.
+class PaperRedistribution : public testing::Test {
+protected:
+    void TearDown() override { EXPECT_EQ(device.validation_messages(), ""); }
+
+    const gpu::Device device;
+};
+
+class PaperCrosses : public testing::TestWithParam<Redistribution> {
+protected:
+    void TearDown() override { EXPECT_EQ(device.validation_messages(), ""); }
+
+    const gpu::Device device;
+};
+
+INSTANTIATE_TEST_SUITE_P(By, PaperCrosses,
+                         testing::Values(Redistribution::paper_cross,
+                                         Redistribution::paper_cross_incremental),
+                         [](const auto& test) {
+                             return test.param == Redistribution::paper_cross ? "whole"
+                                                                              : "incremental";
+                         });
+
+// All surfaces emit E and reflect ρ: B = E + ρ B everywhere, wherever the box stands. It sends what
+// it occludes, so B_j = P in Eq. (3.3.1).
+TEST_P(PaperCrosses, AFurnaceStaysEvenWhereverTheBoxIs)
+{
+    Scene scene = thesis_room("large");
+    constexpr float kAlbedo = 0.5f;
+    for (Material& material : scene.materials) {
+        material.base_color = glm::vec4(kAlbedo, kAlbedo, kAlbedo, 1.0f);
+        material.emitted = glm::vec3(1.0f);
+    }
+    LiveScene live(device, scene, options_of(scene, GetParam()));
+    const auto h = after_move(live, shifted(scene, 0.2f, 0.5f));
+    double sum = 0.0, square = 0.0, count = 0.0, on_box = 0.0, of_box = 0.0;
+    for (std::size_t i = 0; i < h.size(); ++i) {
+        const Lumel& lumel = live.lumels().lumels[i];
+        if (lumel.flags & kLumelBuried)
+            continue;
+        const double ratio = double(h[i].g / (lumel.emission.g / (1.0f - lumel.albedo.g)));
+        sum += ratio;
+        square += (ratio - 1.0) * (ratio - 1.0);
+        count += 1.0;
+        if (lumel.flags & kLumelMoving) {
+            on_box += ratio;
+            of_box += 1.0;
+        }
+    }
+    EXPECT_NEAR(sum / count, 1.0, 0.01);
+    EXPECT_NEAR(on_box / of_box, 1.0, 0.01);
+    EXPECT_LE(std::sqrt(square / count), 0.03);
+}
+
+/// The room with one wall as its only lamp: smooth on the hemicubes, so that rays sample it well.
+Scene room_with_a_wall_of_light()
+{
+    Scene scene = thesis_room("large");
+    for (Material& material : scene.materials)
+        material.emitted = glm::vec3(0.0f);
+    scene.materials.push_back(scene.materials.front());
+    scene.materials.back().emitted = glm::vec3(1.0f);
+    const Instance& wall = scene.instances[find_instance(scene, "wall -z")];
+    for (Primitive& primitive : scene.meshes[std::size_t(wall.mesh)].primitives)
+        primitive.material = int(scene.materials.size()) - 1;
+    return scene;
+}
+
+TEST_P(PaperCrosses, InSmoothLightAMovedBoxIsLitAsIfItAlwaysStoodThere)
+{
+    const Scene scene = room_with_a_wall_of_light();
+    const glm::mat4 place = shifted(scene, 0.2f, 0.5f);
+    constexpr int kFineSide = 64;
+    const LiveOptions options = options_of(scene, GetParam(), kFineSide);
+    LiveScene live(device, scene, options);
+    live.settle();
+    const auto before = live.irradiance();
+    const auto truth = solved_at(device, scene, options, place);
+    const auto h = after_move(live, place);
+    EXPECT_LE(apart(live, h, truth), 0.25 * apart(live, before, truth));
+}
+
+// B^s is crossed anew where it has changed: nothing accumulates (4.5.2, Error analysis).
+TEST_F(PaperRedistribution, WholeCrossProjectionForgetsPastMoves)
+{
+    const Scene scene = thesis_room("large");
+    LiveScene live(device, scene, options_of(scene, Redistribution::paper_cross));
+    live.settle();
+    const auto before = live.irradiance();
+    EXPECT_LE(apart(live, there_and_back(live), before), 0.001);
+}
+
+// Figure 4.5.4.
+TEST_F(PaperRedistribution, IncrementalCrossProjectionAccumulatesErrors)
+{
+    const Scene scene = thesis_room("large");
+    LiveScene live(device, scene, options_of(scene, Redistribution::paper_cross_incremental));
+    live.settle();
+    const auto before = live.irradiance();
+    const double few = apart(live, there_and_back(live), before);
+    EXPECT_GT(few, 0.01);
+    EXPECT_GT(apart(live, there_and_back(live), before), 1.5 * few);
+}
+
+TEST_P(PaperCrosses, ABoxTakenOutAndPutBackIsLitAsBefore)
+{
+    const Scene scene = thesis_room("large");
+    LiveScene live(device, scene, options_of(scene, GetParam()));
+    live.settle();
+    const auto before = live.irradiance();
+    const glm::mat4 home = live.scene().instances[find_instance(scene, "box")].transform;
+    const auto without =
+        after_move(live, glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 1000.0f, 0.0f)) * home);
+    EXPECT_GT(apart(live, without, before), 0.05);
+    EXPECT_LE(apart(live, after_move(live, home), before), 0.0005);
+}
+
+// Figures 5.2.1 and 5.2.2: lamps are crossed through 16 rays a patch.
+TEST_F(PaperRedistribution, SmallLampsAreUndersampledUnlessTheyCastShadows)
+{
+    const Scene scene = thesis_room("small");
+    const glm::mat4 place = shifted(scene, 0.2f, 0.5f);
+    LiveScene paper(device, scene, options_of(scene, Redistribution::paper_cross));
+    LiveScene cross(device, scene, options_of(scene, Redistribution::cross));
+    const auto truth = solved_at(device, scene, options_of(scene, Redistribution::cross), place);
+    EXPECT_GT(apart(paper, after_move(paper, place), truth),
+              10.0 * apart(cross, after_move(cross, place), truth));
+}
+
+/// [bytes] of stored visibility; 0: the thesis' two hemicubes a patch.
+class PaperIncrementals : public testing::TestWithParam<std::uint64_t> {
+protected:
+    void TearDown() override { EXPECT_EQ(device.validation_messages(), ""); }
+
+    const gpu::Device device;
+};
+
+INSTANTIATE_TEST_SUITE_P(With, PaperIncrementals,
+                         testing::Values(LiveOptions{}.visibility_bytes, std::uint64_t(0)),
+                         [](const auto& test) {
+                             return test.param > 0 ? "stored_visibility" : "two_hemicubes";
+                         });
+
+TEST_P(PaperIncrementals, AMovedBoxIsLitAsIfItAlwaysStoodThere)
+{
+    const Scene scene = thesis_room("large");
+    const glm::mat4 place = shifted(scene, 0.2f, 0.5f);
+    LiveOptions options = options_of(scene, Redistribution::paper_incremental);
+    options.visibility_bytes = GetParam();
+    LiveScene live(device, scene, options);
+    live.settle();
+    const auto before = live.irradiance();
+    const auto truth = solved_at(device, scene, options, place);
+    EXPECT_GT(apart(live, before, truth), 0.05);
+    EXPECT_LE(apart(live, after_move(live, place), truth), 0.002);
+    const glm::mat4 home = scene.instances[options.movers[0]].transform;
+    EXPECT_LE(apart(live, after_move(live, home), before), 0.001);
+}
+
+// Eq. (4.4.1): the pass that redistributes also shoots what an unfinished solution has left. The
+// box is black: its own light would be left for later.
+TEST_F(PaperRedistribution, AMergedPassShootsUnshotLightToo)
+{
+    Scene scene = thesis_room("large");
+    scene.materials.emplace_back().base_color = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    const std::uint32_t box = find_instance(scene, "box");
+    for (Primitive& primitive : scene.meshes[std::size_t(scene.instances[box].mesh)].primitives)
+        primitive.material = int(scene.materials.size()) - 1;
+    std::vector<double> residuals;
+    for (const Redistribution by :
+         {Redistribution::incremental, Redistribution::paper_incremental}) {
+        LiveOptions options = options_of(scene, by);
+        options.residual = 0.1;
+        LiveScene live(device, scene, options);
+        live.settle();
+        live.move(box, shifted(scene, 0.001f, 0.0f));
+        while (live.update(0.0).under_way) {
+        }
+        residuals.push_back(live.state().residual);
+    }
+    EXPECT_LT(residuals[1], 0.6 * residuals[0]);
+}
+
+}  // namespace
+}  // namespace lumel
