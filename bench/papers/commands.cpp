@@ -200,6 +200,9 @@ void add_dynamic(CLI::App& app, DynamicSettings& settings, Report& report)
         ->check(CLI::IsMember({"indirect", "large", "small", "low"}));
     add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
     add_number(figure, "--low-size", settings.low_size, "the same of the low quality scene");
+    add_number(figure, "--low-hemicube", settings.low_hemicube, "side of its hemicubes [pixels]");
+    add_number(figure, "--low-shooters", settings.low_shooters,
+               "its patches send at most 1/N of all light");
     add_given(figure, settings.shared, "hemicube");
     add_given(figure, settings.shared, "batch");
     add_number(figure, "--degrees", settings.degrees, "that the box turns in a step");

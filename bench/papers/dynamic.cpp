@@ -61,6 +61,10 @@ Stage set(const ThesisScene& which, const DynamicSettings& settings, int pieces)
         stage.places.push_back(turned(stage.scene, stage.box, double(step * settings.degrees)));
     stage.options.atlas.size = which.low_quality ? settings.low_size : settings.shared.size;
     stage.options.solver = options_of<ProgressiveOptions>(settings.shared);
+    if (which.low_quality) {
+        stage.options.solver.views.hemicube = settings.low_hemicube;
+        stage.options.solver.shooters = std::uint32_t(settings.low_shooters);
+    }
     stage.gather = options_of<GatherOptions>(settings.shared);
     stage.options.movers = {stage.box};
     stage.options.residual = settings.residual;

@@ -102,6 +102,8 @@ struct DynamicSettings {
     Settings shared;                  ///< the map's side is that of all but the low quality scene
     std::vector<std::string> scenes;  ///< keys of the table in moving.cpp; empty: all
     int low_size = 64;                ///< side of the low quality scene's map [texels]
+    int low_hemicube = 32;            ///< and of its hemicubes [pixels]
+    int low_shooters = 64;            ///< its patches send at most 1 / this of all light
     int degrees = 10;                 ///< that the box turns in a step
     double residual = LiveOptions{}.residual;  ///< to rest at
     int steps = 5;                             ///< after the first, whose median counts

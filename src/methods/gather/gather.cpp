@@ -30,6 +30,7 @@
 #include "methods/gather/gather.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "methods/gather/hemicube_light.h"
@@ -77,6 +78,22 @@ std::vector<std::uint32_t> open_lumels(const Lumels& lumels)
     return open;
 }
 
+/// Side of level 0 of a hemicube's mipmaps [pixels]: the tile in a square of a power of two.
+std::uint32_t mipmap_side(std::uint32_t hemicube)
+{
+    return std::bit_ceil(hemicube_tiles(hemicube, 1).width);
+}
+
+/// Pixels of all levels of a hemicube's mipmaps.
+std::size_t mipmap_pixels(const GatherOptions& options)
+{
+    std::size_t pixels = 0;
+    if (options.integration == Integration::mipmap)
+        for (std::size_t side = mipmap_side(std::uint32_t(options.hemicube)); side > 0; side /= 2)
+            pixels += side * side;
+    return pixels;
+}
+
 }  // namespace
 
 GatherRadiosity::GatherRadiosity(const gpu::Device& device, const World& world,
@@ -90,6 +107,8 @@ GatherRadiosity::GatherRadiosity(const gpu::Device& device, const World& world,
       ray_offset_(lift_of(world)),
       eyes_kernel_(device),
       integrate_(device),
+      multiply_(device),
+      reduce_(device),
       bounce_(device),
       figures_kernel_(device),
       views_(device, world, std::uint32_t(options.hemicube), kNearPart * ray_offset_,
@@ -104,6 +123,7 @@ GatherRadiosity::GatherRadiosity(const gpu::Device& device, const World& world,
       eyes_(device, views_.capacity()),
       points_(device, views_.capacity()),
       gathered_(device, views_.capacity()),
+      mipmaps_(device, mipmap_pixels(options) * views_.capacity()),
       surface_(device, view(surfaces_of(lumels))),
       emission_(device, view(emission_of(lumels))),
       radiosity_(device, view(emission_of(lumels))),
@@ -129,6 +149,7 @@ std::uint64_t GatherRadiosity::device_bytes(const SolveSize& size, const GatherO
            views * (sizeof(Eye) + sizeof(GatheringPoint) + sizeof(glm::vec3)) +
            size.count() * (sizeof(std::uint32_t) + sizeof(glm::vec4) +
                            (kVectors + 2 * kHalves) * sizeof(glm::vec3)) +
+           views * mipmap_pixels(options) * sizeof(glm::vec3) +
            2 * size.texels() * sizeof(std::uint32_t) + LumelSums::device_bytes(size.count());
 }
 
@@ -168,8 +189,34 @@ void GatherRadiosity::place_eyes(std::uint32_t lumels)
                     params, params.eyes);
 }
 
+void GatherRadiosity::integrate_by_mipmaps(std::uint32_t eyes)
+{
+    std::uint32_t side = mipmap_side(std::uint32_t(options_.hemicube)), from = 0;
+    const auto whole = float(side) * float(side);
+    pacer_.work("integrate", [&](gpu::Commands& commands) {
+        commands.dispatch(
+            multiply_,
+            {.views = {views_.image(), views_.sampler()},
+             .points = points_,
+             .delta_form_factor = delta_form_factors_,
+             .mipmaps = mipmaps_},
+            {.views = views_.layout(), .samples = gpu::kManySamples, .side = side, .eyes = eyes},
+            std::size_t(eyes) * side * side);
+        while (side > 1) {
+            const std::uint32_t to = from + eyes * side * side;
+            side /= 2;
+            commands.dispatch(reduce_, {.mipmaps = mipmaps_, .gathered = gathered_},
+                              {.side = side, .from = from, .to = to, .eyes = eyes, .whole = whole},
+                              std::size_t(eyes) * side * side);
+            from = to;
+        }
+    });
+}
+
 void GatherRadiosity::integrate(std::uint32_t eyes)
 {
+    if (options_.integration == Integration::mipmap)
+        return integrate_by_mipmaps(eyes);
     const IntegrateParams params{.views = views_.layout(), .samples = gpu::kManySamples};
     pacer_.dispatch("integrate", integrate_,
                     {.views = {views_.image(), views_.sampler()},

@@ -8,6 +8,8 @@
 #include "methods/gather/gather.bounce.comp.h"
 #include "methods/gather/gather.eyes.comp.h"
 #include "methods/gather/gather.integrate.comp.h"
+#include "methods/gather/gather.multiply.comp.h"
+#include "methods/gather/gather.reduce.comp.h"
 #include "methods/gather/gather.shared.h"
 #include "methods/gather/gather.sums.comp.h"
 #include "methods/gather/options.h"
@@ -38,6 +40,7 @@ public:
 private:
     void place_eyes(std::uint32_t lumels);
     void integrate(std::uint32_t eyes);
+    void integrate_by_mipmaps(std::uint32_t eyes);
     void bounce(std::uint32_t lumels);
     void end_bounce();
     double still_to_come(const Terms& terms) const;
@@ -52,6 +55,8 @@ private:
     float ray_offset_;        ///< distance of eyes from their surface [m]
     gpu::Kernel<shaders::GatherEyes> eyes_kernel_;
     gpu::Kernel<shaders::GatherIntegrate> integrate_;
+    gpu::Kernel<shaders::GatherMultiply> multiply_;
+    gpu::Kernel<shaders::GatherReduce> reduce_;
     gpu::Kernel<shaders::GatherBounce> bounce_;
     gpu::Kernel<shaders::GatherSums> figures_kernel_;
     LitViews views_;
@@ -63,6 +68,7 @@ private:
     gpu::Array<Eye> eyes_;
     gpu::Array<GatheringPoint> points_;
     gpu::Array<glm::vec3> gathered_;             ///< [K] H of each hemicube
+    gpu::Array<glm::vec3> mipmaps_;              ///< [levels][K][pixels], with Integration::mipmap
     gpu::Array<glm::vec4> surface_;              ///< (ρ, A) [N]
     gpu::Array<glm::vec3> emission_;             ///< E [N]
     gpu::Array<glm::vec3> radiosity_;            ///< B [N]

@@ -30,6 +30,23 @@ struct IntegrateParams {
     uint samples;  ///< samples per pixel
 };
 
+/// Push constants of gather.multiply.comp.
+struct MultiplyParams {
+    EyeViewLayout views;
+    uint samples;  ///< samples per pixel
+    uint side;     ///< of level 0 of the mipmaps [pixels], a power of two
+    uint eyes;     ///< K
+};
+
+/// Push constants of gather.reduce.comp: one level of all mipmaps.
+struct ReduceParams {
+    uint side;    ///< of the level written [pixels]
+    uint from;    ///< first pixel of the level read
+    uint to;      ///< first pixel of the level written
+    uint eyes;    ///< K
+    float whole;  ///< pixels of level 0: the last level is the mean of as many
+};
+
 /// Push constants of gather.bounce.comp.
 struct BounceParams {
     uint first;       ///< first lumel of the order

@@ -7,11 +7,19 @@
 
 namespace lumel {
 
+inline constexpr OptionWord kIntegrations[] = {{"sum", Integration::sum},
+                                               {"mipmap", Integration::mipmap}};
+
 inline constexpr OptionInfo kGatherOptions[] = {
     seed_option(member<&GatherOptions::seed>),
     sampling_option(member<&GatherOptions::rule>),
     batch_option(member<&GatherOptions::batch>, kMaxHemicubes),
     hemicube_option(member<&GatherOptions::hemicube>),
+    {.name = "integration",
+     .help = "Sum each hemicube in one pass (sum), or by a mipmap chain as on older hardware "
+             "(mipmap), which is slower",
+     .words = kIntegrations,
+     .member = member<&GatherOptions::integration>},
 };
 
 }  // namespace lumel

@@ -7,6 +7,12 @@
 
 namespace lumel {
 
+/// Sum over the pixels of a hemicube [Hoef13] 4.2. Both give the same light, except for rounding.
+enum class Integration {
+    sum,     ///< parallel reduction in a workgroup: reads each pixel once
+    mipmap,  ///< average of a mipmap chain, each level written to memory: slower
+};
+
 struct GatherOptions {
     std::uint32_t seed = 1;
     int batch = 16;  ///< K, hemicubes at a time
@@ -14,6 +20,7 @@ struct GatherOptions {
     /// from bounce to bounce, so few pixels are enough.
     int hemicube = 32;
     SampleRule rule = SampleRule::area;
+    Integration integration = Integration::sum;
 };
 
 }  // namespace lumel

@@ -39,8 +39,6 @@
 namespace lumel {
 namespace {
 
-/// Maximum part of all light per patch: shadows from 512 points look soft.
-constexpr float kPatchShare = 1.0f / 512.0f;
 /// Weight of missing light, a bias of all lumels, relative to noise.
 constexpr double kMissing = 4.0;
 /// When lamps go out, the residual is relative to at least this fraction of the maximum light so
@@ -87,6 +85,7 @@ ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const Worl
     : world_(&world),
       count_(std::uint32_t(lumels.lumels.size())),
       near_radius_(near.radius),
+      patch_share_(1.0f / float(options.shooters)),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
       area_(std::max(area_of(lumels), 1e-30f)),
       power_(device),
@@ -142,7 +141,7 @@ void ProgressiveRadiosity::choose()
     const ChooseParams params{.charts = charts,
                               .batch = shots_.batch(),
                               .finest = finest_level(shots_.batch()),
-                              .patch_share = kPatchShare,
+                              .patch_share = patch_share_,
                               .area = area_};
     pacer_.work("select", [&](gpu::Commands& commands) {
         commands.dispatch(power_,

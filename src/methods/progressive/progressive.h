@@ -56,6 +56,7 @@ private:
     const World* world_;
     std::uint32_t count_;  ///< N lumels
     float near_radius_;
+    float patch_share_;          ///< maximum part of all light per patch
     double emitted_power_;       ///< Σ A 𝓛(E) [lm]
     float area_;                 ///< Σ A [m²]
     double most_arrived_ = 0.0;  ///< maximum of arrived light in residual() [lm]

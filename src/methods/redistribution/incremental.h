@@ -5,10 +5,10 @@
 #include <functional>
 
 #include "methods/progressive/progressive.h"
+#include "methods/progressive/visibility_rows.h"
 #include "methods/redistribution/incremental.receive.comp.h"
 #include "methods/redistribution/incremental.reset.comp.h"
 #include "methods/redistribution/incremental.shared.h"
-#include "methods/redistribution/visibility_rows.h"
 
 namespace lumel {
 

@@ -7,7 +7,7 @@
 #include "raster/world/receiving_point.glsl"
 #include "raster/eyes/sees.glsl"
 #include "solve/transport/patch_light.glsl"
-#include "methods/redistribution/visibility_rows.glsl"
+#include "methods/progressive/visibility_rows.glsl"
 
 // Redistributes the shot light of a batch of patches, [Hoef13] 4.4, Eq. (3.2.1):
 //

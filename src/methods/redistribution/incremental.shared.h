@@ -1,7 +1,7 @@
 #ifndef LUMEL_METHODS_REDISTRIBUTION_INCREMENTAL_SHARED_H
 #define LUMEL_METHODS_REDISTRIBUTION_INCREMENTAL_SHARED_H
 #include "atlas/near/moved_box.shared.h"
-#include "methods/redistribution/visibility_rows.shared.h"
+#include "methods/progressive/visibility_rows.shared.h"
 LUMEL_SHARED_BEGIN
 
 /// Push constants of incremental.receive.comp. batch.sign_factor: -1 takes light of patches without

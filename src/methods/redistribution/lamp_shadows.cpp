@@ -14,16 +14,33 @@
 #include "methods/redistribution/lamp_shadows.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
+#include "base/core/box.h"
 #include "base/core/luminance.h"
 #include "solve/shooting/lumel_arrays.h"
 
 namespace lumel {
 namespace {
 
-/// Minimum number of points that a lamp casts the objects' shadows from, if it has shot from as
-/// many.
-constexpr std::uint32_t kMinPoints = 64;
+/// Number of points that are enough for any lamp.
+constexpr double kEnoughPoints = 64.0;
+
+/// Side of a square lumel of the mean area [m].
+double mean_side(const Lumels& lumels)
+{
+    double area = 0.0;
+    for (const Lumel& lumel : lumels.lumels)
+        area += double(lumel.area);
+    return std::sqrt(area / double(std::max<std::size_t>(lumels.lumels.size(), 1)));
+}
+
+/// Distance from a point to a box, 0 inside [m].
+double distance_to(const MovedBox& box, const glm::vec3& x)
+{
+    return double(glm::length(glm::max(glm::max(box.low - x, x - box.high), glm::vec3(0.0f))));
+}
 
 std::vector<std::uint32_t> lumels_of_lamps(const Patches& layout, const Lumels& lumels)
 {
@@ -60,6 +77,22 @@ double change(const std::vector<glm::vec3>& before, const std::vector<glm::vec3>
 
 }  // namespace
 
+double lamp_points(std::span<const Lumel> lamp, const std::vector<MovedBox>& boxes,
+                   const Box& world, double side)
+{
+    double area = 0.0, steepest = 0.0;
+    for (const Lumel& lumel : lamp) {
+        area += double(lumel.area);
+        const glm::vec3 corner =
+            glm::max(glm::abs(world.low - lumel.position), glm::abs(world.high - lumel.position));
+        const double b = double(glm::length(corner));
+        for (const MovedBox& box : boxes)
+            steepest =
+                std::max(steepest, b / std::max(distance_to(box, lumel.position), side) - 1.0);
+    }
+    return std::clamp(area * steepest * steepest / (side * side), 1.0, kEnoughPoints);
+}
+
 LampShadows::LampShadows(const gpu::Device& device, World& world, const Lumels& lumels,
                          ProgressiveRadiosity& solver, std::vector<char> movers,
                          std::uint64_t most_bytes)
@@ -72,7 +105,9 @@ LampShadows::LampShadows(const gpu::Device& device, World& world, const Lumels& 
       lamp_of_(lumels_of_lamps(solver.shots().layout(), lumels)),
       pairs_(device, solver, movers_.size()),
       is_lamp_(device, view(lamp_of_)),
-      light_(device, lumels.lumels.size())
+      light_(device, lumels.lumels.size()),
+      side_(mean_side(lumels)),
+      least_(solver.shots().layout().charts.size(), 0)
 {
     pairs_.moved.upload(words_of(movers_));
 }
@@ -95,8 +130,9 @@ void LampShadows::begin(const std::vector<MovedBox>& boxes, bool has_moved, doub
 }
 
 /// [C] Level at which each lamp's chart shoots here; kNoLevel: not a lamp. It can differ from the
-/// level shot at before, as results do not accumulate over moves.
-std::vector<std::uint32_t> LampShadows::levels() const
+/// level shot at before, as results do not accumulate over moves. A level that an earlier move
+/// needed is kept, with its rows.
+std::vector<std::uint32_t> LampShadows::levels(const std::vector<MovedBox>& boxes)
 {
     const Patches& layout = solver_->shots().layout();
     std::vector<std::uint32_t> levels = solver_->shots().levels().download();
@@ -104,9 +140,14 @@ std::vector<std::uint32_t> LampShadows::levels() const
         const PatchChart& chart = layout.charts[c];
         if (!lamp_of_[chart.first_lumel])
             levels[c] = kNoLevel;
-        while (levels[c] != kNoLevel && levels[c] > 0 &&
-               patches_of(chart, levels[c] - 1) >= kMinPoints)
+        if (levels[c] == kNoLevel)
+            continue;
+        const double points =
+            lamp_points(std::span(lumels_->lumels).subspan(chart.first_lumel, chart.lumel_count),
+                        boxes, {world_->low(), world_->high()}, side_);
+        while (levels[c] > least_[c] && double(patches_of(chart, levels[c] - 1)) >= points)
             --levels[c];
+        least_[c] = levels[c];
     }
     return levels;
 }
@@ -114,7 +155,7 @@ std::vector<std::uint32_t> LampShadows::levels() const
 std::vector<ChosenPatch> LampShadows::patches_to_shoot(const Move& around)
 {
     const Patches& layout = solver_->shots().layout();
-    const std::vector<std::uint32_t> levels = this->levels();
+    const std::vector<std::uint32_t> levels = this->levels(around.boxes);
     std::vector<glm::mat4> places;
     for (const Placement& placement : world_->placements())
         places.push_back(placement.now);

@@ -3,11 +3,20 @@
 // backs of objects would show a small lamp as a few pixels. See lamp_shadows.cpp.
 
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "base/core/box.h"
 #include "methods/redistribution/incremental.h"
 
 namespace lumel {
+
+/// Points from which a lamp's lumels cast shadows of objects in `boxes` [1…64]. A point stands for
+/// a part of the lamp h = √(area / points) wide. An object at distance a displaces the shadow of
+/// that part by up to h (b - a) / 2a on a surface at distance b: at most half of `side`, the width
+/// of a lumel [m], for all surfaces inside `world`.
+double lamp_points(std::span<const Lumel> lamp, const std::vector<MovedBox>& boxes,
+                   const Box& world, double side);
 
 /// Lamps are static charts with an emissive lumel.
 class LampShadows {
@@ -32,7 +41,7 @@ public:
     std::uint64_t hemicubes() const { return hemicubes_; }  ///< total
 
 private:
-    std::vector<std::uint32_t> levels() const;
+    std::vector<std::uint32_t> levels(const std::vector<MovedBox>& boxes);
     std::vector<ChosenPatch> patches_to_shoot(const Move& around);
     void look(bool shows_movers);
     void receive(float sign);
@@ -47,8 +56,10 @@ private:
     PairRedistribution pairs_;
     gpu::Array<std::uint32_t> is_lamp_;
     gpu::Array<glm::vec3> light_;
-    std::vector<glm::vec3> shot_;   ///< [N] B^s of the lamps when light_ was computed
-    std::optional<ShotList> list_;  ///< present while in progress
+    double side_;                       ///< of a mean lumel [m]
+    std::vector<std::uint32_t> least_;  ///< [C] coarsest level that moves so far allow
+    std::vector<glm::vec3> shot_;       ///< [N] B^s of the lamps when light_ was computed
+    std::optional<ShotList> list_;      ///< present while in progress
     std::uint32_t next_ = 0;
     std::uint64_t hemicubes_ = 0;
 };

@@ -3,7 +3,7 @@
 #include "raster/eyes/hemicube.glsl"
 #include "solve/shooting/radiosity.glsl"
 
-// [Hoef13] Algorithm 4.5, GatherRadiosity, and lines 13 and 14 of Algorithm 4.4: the shot light of C
+// [Hoef13] Algorithm 4.5, GatherRadiosity, and Algorithm 4.4, lines 13 and 14: the shot light of C
 // on the hemicube of a patch of M, weighted by the delta form factors, is R_g(C, M); then the
 // patch's whole light counts as shot:
 //

@@ -33,7 +33,7 @@ float of_whole, of_shot;
 #define POWER_OF(k) (of_whole * shots[k].power - of_shot * shot_before[k].power)
 #define SENDING_OF(k, j) (of_whole * sending[j] - of_shot * shot[j] / float(shots[k].parts))
 #include "solve/transport/patch_light.glsl"
-#include "methods/redistribution/visibility_rows.glsl"
+#include "methods/progressive/visibility_rows.glsl"
 
 void choose_case(uint k, Receiver r, bool is_moved)
 {

@@ -1,6 +1,6 @@
 #ifndef LUMEL_METHODS_REDISTRIBUTION_PAPER_INCREMENTAL_SHARED_H
 #define LUMEL_METHODS_REDISTRIBUTION_PAPER_INCREMENTAL_SHARED_H
-#include "methods/redistribution/visibility_rows.shared.h"
+#include "methods/progressive/visibility_rows.shared.h"
 LUMEL_SHARED_BEGIN
 
 /// Push constants of paper_incremental.receive.comp.

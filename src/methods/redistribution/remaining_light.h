@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "methods/progressive/progressive.h"
-#include "methods/redistribution/visibility_rows.h"
+#include "methods/progressive/visibility_rows.h"
 
 namespace lumel {
 

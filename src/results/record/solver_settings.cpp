@@ -1,5 +1,7 @@
 #include "results/record/solver_settings.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string_view>
 
 #include "base/core/number.h"
@@ -10,8 +12,14 @@ namespace {
 
 constexpr Limits kShots{0.0, 1e15};
 
-/// An option newer than the format: a report without it has the default.
-constexpr std::string_view kNewerOption = "form";
+/// Options newer than the format: a report without them has the defaults.
+constexpr std::string_view kNewerOptions[] = {"form", "shooters", "integration"};
+
+bool is_newer(std::string_view option)
+{
+    return std::find(std::begin(kNewerOptions), std::end(kNewerOptions), option) !=
+           std::end(kNewerOptions);
+}
 
 template <class Options, class Visit>
 void each_limit(Options& options, const Visit& visit)
@@ -72,7 +80,7 @@ SolverOptions solver_options_of(const JsonView& settings)
     }
     const JsonView own = settings.get("options");
     for (const OptionInfo& option : method_of(id).options) {
-        if (option.name == kNewerOption && !own.find(option.name))
+        if (is_newer(option.name) && !own.find(option.name))
             continue;
         const JsonView value = own.get(option.name);
         if (!set_option(options.method, option, text_of(value.json())))

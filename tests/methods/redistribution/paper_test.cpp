@@ -7,6 +7,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "../../support/source_folder.h"
+#include "methods/gather/gather.h"
+#include "methods/redistribution/lamp_shadows.h"
 #include "methods/redistribution/live_scene.h"
 #include "scene/values/scene.h"
 
@@ -271,6 +273,64 @@ TEST_F(PaperRedistribution, AMergedPassShootsUnshotLightToo)
         residuals.push_back(live.state().residual);
     }
     EXPECT_LT(residuals[1], 0.6 * residuals[0]);
+}
+
+// A lamp of h × h at distance a above an object and b above the farthest surface blurs the edge of
+// a shadow over h (b - a) / a.
+TEST(LampPoints, BlurTheShadowOfEachPartOfTheLampOverALumelAtMost)
+{
+    constexpr float kHeight = 4.0f, kReach = 1.0f;
+    constexpr double kLumel = 0.1;
+    const Box world{glm::vec3(0.0f), glm::vec3(0.0f, kHeight, 0.0f)};
+    const std::vector<MovedBox> boxes{{glm::vec3(0.0f), glm::vec3(0.0f, kHeight - kReach, 0.0f)}};
+    const auto points = [&](float width) {
+        Lumel lamp{};
+        lamp.position = glm::vec3(0.0f, kHeight, 0.0f);
+        lamp.area = width * width;
+        return lamp_points(std::span(&lamp, 1), boxes, world, kLumel);
+    };
+    EXPECT_EQ(points(0.01f), 1.0);
+    const double wide = points(0.2f);  // between the limits: 36
+    EXPECT_NEAR(0.2 / std::sqrt(wide) * double(kHeight - kReach) / double(kReach), kLumel, 1e-5);
+    EXPECT_EQ(points(1.0f), 64.0);
+}
+
+// Low quality: patches that send more light each.
+TEST_F(PaperRedistribution, FewerShootersTakeFewerHemicubesForAboutTheSameLight)
+{
+    const Scene scene = thesis_room("large");
+    std::vector<std::vector<glm::vec3>> light;
+    std::vector<std::uint64_t> hemicubes;
+    for (const std::uint32_t shooters : {512u, 32u}) {
+        LiveOptions options = options_of(scene, Redistribution::incremental);
+        options.solver.shooters = shooters;
+        LiveScene live(device, scene, options);
+        live.settle();
+        light.push_back(live.irradiance());
+        hemicubes.push_back(live.state().hemicubes);
+        EXPECT_LT(apart(live, light.back(), light.front()), 0.1);
+    }
+    EXPECT_LT(2 * hemicubes[1], hemicubes[0]);
+}
+
+// Section 4.2: the mean of a mipmap chain is the sum over the hemicube.
+TEST_F(PaperRedistribution, MipmapsOfHemicubesIntegrateToTheirSum)
+{
+    const Scene scene = thesis_room("large");
+    const LiveScene laid_out(device, scene, options_of(scene, Redistribution::incremental));
+    const World world(device, scene, laid_out.lumels(), &laid_out.atlas());
+    std::vector<std::vector<glm::vec3>> light;
+    for (const Integration integration : {Integration::sum, Integration::mipmap}) {
+        GatherRadiosity solver(device, world, laid_out.lumels(),
+                               {.batch = 48, .hemicube = kHemicube / 2, .integration = integration},
+                               0.0);
+        constexpr int kSteps = 20;  // two bounces
+        for (int step = 0; step < kSteps; ++step)
+            solver.step();
+        light.push_back(solver.irradiance());
+    }
+    EXPECT_GT(light[0][0].g, 0.0f);
+    EXPECT_LT(apart(laid_out, light[1], light[0]), 1e-6);
 }
 
 }  // namespace

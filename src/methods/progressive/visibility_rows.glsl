@@ -5,7 +5,7 @@
 // a word of a lumel, which only the lumel's own invocation writes. Declares the rows of a list of
 // patches and the bits.
 
-#include "methods/redistribution/visibility_rows.shared.h"
+#include "methods/progressive/visibility_rows.shared.h"
 
 layout(scalar) readonly buffer RowOf { uint row_of[]; };   // [list] row, or kNoRow
 layout(scalar) buffer Seen { uint seen[]; };               // [rows / 32][N]

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "methods/progressive/progressive.h"
-#include "methods/redistribution/visibility_rows.record.comp.h"
-#include "methods/redistribution/visibility_rows.shared.h"
-#include "methods/redistribution/visibility_rows.shoot.comp.h"
+#include "methods/progressive/visibility_rows.record.comp.h"
+#include "methods/progressive/visibility_rows.shared.h"
+#include "methods/progressive/visibility_rows.shoot.comp.h"
 
 namespace lumel {
 

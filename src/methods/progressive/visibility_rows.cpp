@@ -1,4 +1,4 @@
-#include "methods/redistribution/visibility_rows.h"
+#include "methods/progressive/visibility_rows.h"
 
 #include <algorithm>
 
