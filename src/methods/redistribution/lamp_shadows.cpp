@@ -26,6 +26,8 @@ namespace {
 
 /// Number of points that are enough for any lamp.
 constexpr double kEnoughPoints = 64.0;
+/// Minimum number of points whose shadows' edges follow each other within a lumel.
+constexpr double kEdgesPerLumel = 2.0;
 
 /// Side of a square lumel of the mean area [m].
 double mean_side(const Lumels& lumels)
@@ -90,7 +92,8 @@ double lamp_points(std::span<const Lumel> lamp, const std::vector<MovedBox>& box
             steepest =
                 std::max(steepest, b / std::max(distance_to(box, lumel.position), side) - 1.0);
     }
-    return std::clamp(area * steepest * steepest / (side * side), 1.0, kEnoughPoints);
+    const double across = kEdgesPerLumel * std::sqrt(area) * steepest / side;
+    return std::clamp(across * across, 1.0, kEnoughPoints);
 }
 
 LampShadows::LampShadows(const gpu::Device& device, World& world, const Lumels& lumels,
