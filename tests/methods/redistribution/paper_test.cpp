@@ -277,7 +277,7 @@ TEST_F(PaperRedistribution, AMergedPassShootsUnshotLightToo)
         errors.push_back(apart(live, live.irradiance(), truth));
     }
     EXPECT_LT(residuals[1], 0.6 * residuals[0]);
-    EXPECT_LT(errors[1], 0.6 * errors[0]);
+    EXPECT_LT(errors[1], 0.4 * errors[0]);  // close pairs alone bring 0.5
 }
 
 // A lamp of h × h at distance a above an object and b above the farthest surface blurs the edge of
