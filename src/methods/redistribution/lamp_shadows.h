@@ -11,10 +11,10 @@
 
 namespace lumel {
 
-/// Points from which a lamp's lumels cast shadows of objects in `boxes` [1…64]. A point stands for a
-/// part of the lamp h = √(area / points) wide. An object at distance a displaces the shadow of that
-/// part by up to h (b - a) / 2a on a surface at distance b: at most a quarter of `side`, the width
-/// of a lumel [m], for all surfaces inside `world`.
+/// Points from which a lamp's lumels cast shadows of objects in `boxes` [1…64]. A point stands for
+/// a part of the lamp h = √(area / points) wide. An object at distance a displaces the shadow of
+/// that part by up to h (b - a) / 2a on a surface at distance b: at most a quarter of `side`, the
+/// width of a lumel [m], for all surfaces inside `world`.
 double lamp_points(std::span<const Lumel> lamp, const std::vector<MovedBox>& boxes,
                    const Box& world, double side);
 
