@@ -41,7 +41,8 @@ VkBufferImageCopy rows_of(const Target& target, std::uint32_t first, std::uint32
 /// Textures have no element type, so their pixel format is checked here.
 void check_texture(const Layout& layout, const Slot& slot, const Target& texture)
 {
-    if ((slot.kind == SlotKind::uint_texture) != (texture.pixel() == Pixel::rg32u))
+    const bool integers = texture.pixel() == Pixel::rg32u || texture.pixel() == Pixel::rgba32u;
+    if ((slot.kind == SlotKind::uint_texture) != integers)
         throw std::logic_error(std::string(layout.name()) +
                                " was given a texture whose pixels differ from its declaration");
 }

@@ -11,7 +11,9 @@ std::uint64_t image_bytes(Pixel pixel, std::uint32_t width, std::uint32_t height
     const std::uint64_t pixels = std::uint64_t(width) * height;
     if (pixel == Pixel::bc1)
         return pixels / 2;
-    return pixels * (pixel == Pixel::rgba32 ? 16u : (pixel == Pixel::rg32u ? 8u : 4u));
+    if (pixel == Pixel::rgba32 || pixel == Pixel::rgba32u)
+        return pixels * 16;
+    return pixels * (pixel == Pixel::rg32u ? 8u : 4u);
 }
 
 VkFormat format_of(Pixel pixel)
@@ -25,6 +27,8 @@ VkFormat format_of(Pixel pixel)
         return VK_FORMAT_R8G8B8A8_SRGB;
     case Pixel::rg32u:
         return VK_FORMAT_R32G32_UINT;
+    case Pixel::rgba32u:
+        return VK_FORMAT_R32G32B32A32_UINT;
     case Pixel::rgba32:
         return VK_FORMAT_R32G32B32A32_SFLOAT;
     case Pixel::bc1:

@@ -8,12 +8,13 @@
 namespace lumel::gpu {
 
 enum class Pixel {
-    depth,   ///< D32_SFLOAT
-    rgba8,   ///< 8-bit linear, four channels
-    srgba8,  ///< 8-bit, colour channels sRGB-coded
-    rgba32,  ///< float, four channels
-    rg32u,   ///< 32-bit unsigned, two channels
-    bc1,     ///< blocks of 4 × 4, three channels; read-only (Device::can_read_blocks)
+    depth,    ///< D32_SFLOAT
+    rgba8,    ///< 8-bit linear, four channels
+    srgba8,   ///< 8-bit, colour channels sRGB-coded
+    rgba32,   ///< float, four channels
+    rg32u,    ///< 32-bit unsigned, two channels
+    rgba32u,  ///< 32-bit unsigned, four channels
+    bc1,      ///< blocks of 4 × 4, three channels; read-only (Device::can_read_blocks)
 };
 
 /// Size of level 0 [bytes]. bc1 requires sides that are multiples of 4.

@@ -21,6 +21,8 @@
 // - Layers::list stores every surface of a pixel, and Layers::peel renders one after the other
 //   (C. Everitt. Interactive Order-Independent Transparency. 2001). Both are exact. Peeling stalls
 //   in every batch, to read back one word: whether the last layer showed any lumel a new surface.
+// - LookupTest::planes, the default, mends the test of Figure 5 on concave ground (see
+//   directions.gather.comp). LookupTest::paper is the paper's.
 // - Regions are slabs along d, within which surfaces compete (illumination_maps.h). Their number
 //   follows from the measured overdraw (slabs.cpp).
 // - With Scheme::phased rays find the light of small emissive surfaces
@@ -226,6 +228,7 @@ void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view, std:
                            .seed = options_.seed,
                            .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                            .neighbours = std::uint32_t(options_.lookups / 2),
+                           .by_planes = options_.lookup_test == LookupTest::planes ? 1u : 0u,
                            .with_emission = options_.iteration.scheme == Scheme::paper ? 0u : 1u,
                            .with_source = iteration_.sends_reflected() ? 1u : 0u,
                            .layer = layer,

@@ -17,8 +17,20 @@
 // separately in one pass.
 //
 // Stochastic layers: looks up (2 neighbours + 1)² pixels, rejects surfaces below the receiver's
-// plane, and takes the nearest of the rest. With slabs, this is done in the receiver's slab; the
-// first surface beyond it is known exactly by one lookup.
+// plane, and takes the nearest of the rest: LookupTest::paper. With slabs, this is done in the
+// receiver's slab; the first surface beyond it is known exactly by one lookup.
+//
+// On concave ground the surface beside a point x rises above the plane of x, but does not lie on
+// the ray from x. LookupTest::planes therefore takes each sample s as the plane that its triangle
+// lies in, nearness z(q) = z_s + g_s·(q - q_s) at pixel position q, and asks for z at the ray of x:
+//
+//     s occludes x    if  s lies above the plane of x,  and  z(q_x) > z_x,
+//
+// and the nearest z(q_x) counts. Where both lie on a surface with z'' = c, s is c/2 |q_s - q_x|²
+// above the plane of x, and x as far above that of s: one of the two always rejects s. Where z''
+// changes its sign between them, or on facets, this is not so, but then s shows its back: a ray
+// from one side of a surface that is closed, or has no overhangs, meets it on the same side first,
+// so the other side of the receiver's instance is rejected.
 //
 // A list has every surface on the ray through a pixel's centre. The receiving point is moved to
 // where such a ray hits the lumel (first_met.glsl), so the result is exact, as with peeled layers:
@@ -47,6 +59,9 @@ const float kPi = 3.14159265;
 // Surfaces higher than this above the plane are not the receiver itself [pixel widths].
 const float kAbovePlane = 0.02;
 
+// Bits of infinity: the sky is behind all planes.
+const uint kSkyNearness = 0x7f800000u;
+
 // A piece of this width has a ray for any position of the pixel grid [pixels].
 const float kWide = 2.0;
 
@@ -65,6 +80,7 @@ struct InView {
     // Heights above the receiver's plane, per pixel and per nearness [pixel widths].
     vec2 per_pixel;
     float per_nearness;
+    float widths;      // pixel widths per nearness
 };
 
 InView in_view(ParallelView view, LumelPoint point)
@@ -74,11 +90,58 @@ InView in_view(ParallelView view, LumelPoint point)
     return InView(place_in(view, point.position), nearness_in(view, point.position),
                   vec2(dot(normal, view.right), dot(normal, view.up)) / pixels_per_metre,
                   dot(normal, view.toward) * pixels_per_metre /
-                      (nearness_per_metre * nearness_per_metre));
+                      (nearness_per_metre * nearness_per_metre),
+                  pixels_per_metre / nearness_per_metre);
+}
+
+// True for the other side of the receiver's own instance.
+bool is_own_other_side(uint surface, Lumel receiver)
+{
+    if (surface == kAbsorbing)
+        return false;
+    const uint side = (surface - 1u) & 1u;
+    const uint lit = lumel_of[surface - 1u];
+    const uint j = lit != kNoLumel ? lit : lumel_of[(surface - 1u) ^ 1u];
+    const uint own = (receiver.flags & kLumelBack) != 0u ? 1u : 0u;
+    return side != own && j != kNoLumel && lumels[j].instance == receiver.instance;
+}
+
+// What a lookup found: the sample's plane, at the centre of its pixel and on the point's own ray.
+struct Lookup {
+    uint surface;   // 0: nothing
+    float there;    // nearness of the sample
+    float on_ray;   // nearness of its plane on the ray through the point
+    float above;    // height of the sample above the receiver's plane [pixel widths]
+    float ahead;    // distance from the point to the sample's plane, if ahead [pixel widths]
+};
+
+Lookup look_up(InView point, ivec2 corner, ivec2 pixel)
+{
+    const uvec4 found = texelFetch(illumination_map, corner + pixel, 0);
+    const vec2 offset = vec2(pixel) + 0.5 - point.at, slopes = uintBitsToFloat(found.zw);
+    Lookup lookup;
+    lookup.surface = found.x;
+    lookup.there = uintBitsToFloat(found.y);
+    lookup.on_ray = lookup.there - dot(slopes, offset);
+    lookup.above = dot(point.per_pixel, offset) +
+                   point.per_nearness * (lookup.there - point.nearness);
+    const vec2 steepness = slopes * point.widths;
+    lookup.ahead = (lookup.on_ray - point.nearness) * point.widths *
+                   inversesqrt(1.0 + dot(steepness, steepness));
+    return lookup;
+}
+
+bool is_occluder(Lookup lookup, InView point, Lumel receiver)
+{
+    if (lookup.surface == 0u || lookup.above <= kAbovePlane)
+        return false;
+    if (p.by_planes == 0u)
+        return lookup.there > point.nearness;
+    return lookup.ahead > kAbovePlane && !is_own_other_side(lookup.surface, receiver);
 }
 
 // The nearest surface within `reach` pixels of the point, or `before`.
-uvec2 nearest_around(InView point, uint tile, int reach, uvec2 before)
+uvec2 nearest_around(Lumel receiver, InView point, uint tile, int reach, uvec2 before)
 {
     const ivec2 corner = ivec2(tile_corner(p.tiling, tile));
     const int last = int(p.tiling.side) - 1;
@@ -86,26 +149,23 @@ uvec2 nearest_around(InView point, uint tile, int reach, uvec2 before)
     for (int y = -reach; y <= reach; ++y)
         for (int x = -reach; x <= reach; ++x) {
             const ivec2 pixel = clamp(ivec2(floor(point.at)) + ivec2(x, y), ivec2(0), ivec2(last));
-            const uvec2 fragment = texelFetch(illumination_map, corner + pixel, 0).xy;
-            const float there = uintBitsToFloat(fragment.y);
-            const float height = dot(point.per_pixel, vec2(pixel) + 0.5 - point.at) +
-                                 point.per_nearness * (there - point.nearness);
-            if (fragment.x != 0u && height > kAbovePlane && there > point.nearness &&
-                there < uintBitsToFloat(nearest.y))
-                nearest = fragment;
+            const Lookup lookup = look_up(point, corner, pixel);
+            const float nearness = p.by_planes != 0u ? lookup.on_ray : lookup.there;
+            if (nearness < uintBitsToFloat(nearest.y) && is_occluder(lookup, point, receiver))
+                nearest = uvec2(lookup.surface, floatBitsToUint(nearness));
         }
     return nearest;
 }
 
-Seen see_by_chance(ParallelView view, uint k, LumelPoint receiver)
+Seen see_by_chance(ParallelView view, uint k, Lumel lumel, LumelPoint receiver)
 {
     const InView point = in_view(view, receiver);
     const uint slab = min(uint(max(point.nearness, 0.0) * float(p.slabs)), p.slabs - 1u);
     const uint tile = k * p.maps + slab;
-    uvec2 nearest = uvec2(0u, floatBitsToUint(2.0));  // the sky: surfaces are nearer, below 1
-    nearest = nearest_around(point, tile, int(p.neighbours), nearest);
+    uvec2 nearest = uvec2(0u, kSkyNearness);
+    nearest = nearest_around(lumel, point, tile, int(p.neighbours), nearest);
     if (slab + 1u < p.slabs)
-        nearest = nearest_around(point, tile + p.slabs, 0, nearest);
+        nearest = nearest_around(lumel, point, tile + p.slabs, 0, nearest);
     return Seen(nearest.x, 1.0);
 }
 
@@ -190,7 +250,7 @@ void main()
         if (cosine <= 0.0 || dot(point.facing, direction.toward) <= 0.0)
             continue;
         const ParallelView view = views[p.first_view + k];
-        const Seen seen = kLayers == kStochasticLayers ? see_by_chance(view, k, point)
+        const Seen seen = kLayers == kStochasticLayers ? see_by_chance(view, k, lumel, point)
                                                        : see_exactly(view, k, point, i);
         if (p.keep != 0u)
             continue;

@@ -29,6 +29,7 @@ struct GatherParams {
     uint seed;
     uint centre;         ///< 1: receive at the centroid
     uint neighbours;     ///< lookups to each side of a pixel: 0, 1 or 2
+    uint by_planes;      ///< 1: LookupTest::planes
     uint with_emission;  ///< 0: the source holds the emission, as in the paper
     uint with_source;    ///< 0: the source is still 0
     uint layer;          ///< peeled: number of layers in front of the map's

@@ -13,6 +13,8 @@ inline constexpr std::int64_t kMinMapSide = 16, kMaxMapSide = 4096;  // [pixels]
 inline constexpr OptionWord kLayers[] = {
     {"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}};
 inline constexpr OptionWord kLookups[] = {{"1", 1}, {"3", 3}, {"5", 5}};
+inline constexpr OptionWord kLookupTests[] = {{"planes", LookupTest::planes},
+                                              {"paper", LookupTest::paper}};
 inline constexpr OptionWord kAutomatic[] = {{"auto", 0}};
 
 inline constexpr OptionInfo kDirectionsOptions[] = {
@@ -29,6 +31,13 @@ inline constexpr OptionInfo kDirectionsOptions[] = {
      .help = "Side in pixels of the square that is read from stochastic layers",
      .words = kLookups,
      .member = member<&DirectionsOptions::lookups>,
+     .with = "layers",
+     .with_value = "stochastic"},
+    {.name = "lookup-test",
+     .help = "Samples of stochastic layers that can hide others from a lumel: those in front by "
+             "their own plane and the lumel's (planes), or by the lumel's alone (paper)",
+     .words = kLookupTests,
+     .member = member<&DirectionsOptions::lookup_test>,
      .with = "layers",
      .with_value = "stochastic"},
     {.name = "slabs",

@@ -9,6 +9,12 @@
 
 namespace lumel {
 
+/// Which samples of Layers::stochastic occlude a lumel, see directions.gather.comp.
+enum class LookupTest : std::uint32_t {
+    planes,  ///< by the planes of both
+    paper,   ///< by the lumel's own, as [TN11] Figure 5
+};
+
 struct DirectionsOptions {
     std::uint32_t seed = 1;
     int batch = 16;  ///< K, directions at a time
@@ -16,6 +22,7 @@ struct DirectionsOptions {
     IterationOptions iteration;
     Layers layers = Layers::list;  ///< storage in illumination maps
     int lookups = 3;               ///< with Layers::stochastic: 1, 3 or 5 pixels wide and high
+    LookupTest lookup_test = LookupTest::planes;
     /// With Layers::stochastic: slabs that a direction is cut into; 0: as many as the overdraw
     /// requires, see IlluminationMaps.
     std::uint32_t slabs = 0;

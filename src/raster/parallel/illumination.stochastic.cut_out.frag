@@ -13,17 +13,17 @@ layout(scalar) readonly buffer Views { ParallelView views[]; };
 uniform sampler2D base_color;
 layout(location = 1) in vec3 look;
 layout(location = 0) in vec2 place;
-layout(location = 0) out uvec2 fragment;
+layout(location = 0) out uvec4 fragment;
 
 void main()
 {
     const ParallelView view = views[p.view];
     const float nearness = nearness_at(p, gl_FragCoord.z);
+    fragment = sample_of(nearness);
     const Meeting met = meet(p.passage, base_color, look, view.channel, gl_FragCoord.xy, nearness,
                              view.random);
     if (!met.blocked)
         discard;
-    const uint surface = met.there ? surface_at(p, place) : kAbsorbing;
-    fragment = uvec2(surface, floatBitsToUint(nearness));
-    gl_FragDepth = deciding_depth(p, fragment, view.random);
+    fragment.x = met.there ? surface_at(p, place) : kAbsorbing;
+    gl_FragDepth = deciding_depth(p, fragment.xy, view.random);
 }

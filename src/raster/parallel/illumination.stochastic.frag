@@ -11,10 +11,11 @@
 layout(push_constant, scalar) uniform Params { IlluminationParams p; };
 layout(scalar) readonly buffer Views { ParallelView views[]; };
 layout(location = 0) in vec2 place;
-layout(location = 0) out uvec2 fragment;
+layout(location = 0) out uvec4 fragment;
 
 void main()
 {
-    fragment = uvec2(surface_at(p, place), floatBitsToUint(nearness_at(p, gl_FragCoord.z)));
-    gl_FragDepth = deciding_depth(p, fragment, views[p.view].random);
+    fragment = sample_of(nearness_at(p, gl_FragCoord.z));
+    fragment.x = surface_at(p, place);
+    gl_FragDepth = deciding_depth(p, fragment.xy, views[p.view].random);
 }

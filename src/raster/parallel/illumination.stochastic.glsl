@@ -6,6 +6,14 @@
 #include "base/core/hash.glsl"
 #include "raster/parallel/illumination_maps.shared.h"
 
+// What a pixel keeps of a surface: its plane, as nearness and slopes per pixel. Not in divergent
+// control flow.
+uvec4 sample_of(float nearness)
+{
+    return uvec4(0u, floatBitsToUint(nearness), floatBitsToUint(dFdx(nearness)),
+                 floatBitsToUint(dFdy(nearness)));
+}
+
 // Random depth of a surface at a pixel, Figure 4: the largest stays. 0 is behind everything.
 float random_depth(uvec2 fragment, uint random)
 {

@@ -63,6 +63,12 @@ std::uint32_t fitting(const gpu::Device& device, Layers layers, const ParallelLa
     return directions;
 }
 
+/// Of maps as images. A random sample has slopes too.
+gpu::Pixel pixel_of(Layers layers)
+{
+    return layers == Layers::stochastic ? gpu::Pixel::rgba32u : gpu::Pixel::rg32u;
+}
+
 /// Depth range of a tile, see IlluminationMaps. `map`: index among the direction's tiles.
 IlluminationParams part_shown(std::uint32_t map, std::uint32_t slabs)
 {
@@ -86,9 +92,9 @@ IlluminationMaps::IlluminationMaps(const gpu::Device& device, const World& world
       capacity_(fitting(device, layers, layout_, capacity, slabs)),
       width_(width),
       height_(height),
-      image_(device, gpu::Pixel::rg32u, lists() ? 1 : tiles_of(layout_).image_width(),
+      image_(device, pixel_of(layers), lists() ? 1 : tiles_of(layout_).image_width(),
              lists() ? 1 : tiles_of(layout_).image_height(capacity_ * maps_of_slabs(slabs))),
-      odd_image_(device, gpu::Pixel::rg32u, peels() ? image_.width() : 1,
+      odd_image_(device, pixel_of(layers), peels() ? image_.width() : 1,
                  peels() ? image_.height() : 1),
       depth_(device, gpu::Pixel::depth, tiles_of(layout_).image_width(),
              tiles_of(layout_).image_height(capacity_ * maps_of_slabs(slabs))),
@@ -108,7 +114,7 @@ std::uint64_t IlluminationMaps::device_bytes(Layers layers, std::uint32_t side,
     const std::uint64_t map = std::uint64_t(side) * side;
     const std::uint64_t pixels = map * tiles_about_square(capacity * maps_of_slabs(slabs));
     const std::uint64_t depths = pixels * gpu::image_bytes(gpu::Pixel::depth, 1, 1);
-    const std::uint64_t images = pixels * gpu::image_bytes(gpu::Pixel::rg32u, 1, 1);
+    const std::uint64_t images = pixels * gpu::image_bytes(pixel_of(layers), 1, 1);
     if (layers == Layers::peel)
         return depths + 2 * images;
     if (layers == Layers::stochastic)
@@ -119,7 +125,7 @@ std::uint64_t IlluminationMaps::device_bytes(Layers layers, std::uint32_t side,
 
 IlluminationMaps::Rasters IlluminationMaps::make_rasters(const gpu::Device& device, Layers layers)
 {
-    const gpu::RasterOptions options{.color_pixel = gpu::Pixel::rg32u};
+    const gpu::RasterOptions options{.color_pixel = pixel_of(layers)};
     switch (layers) {
     case Layers::list:
         return ListRasters(device, {.depth_test = false});

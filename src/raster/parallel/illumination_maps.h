@@ -53,7 +53,8 @@ public:
     std::uint32_t capacity() const { return capacity_; }  ///< number of directions
     std::uint32_t slabs() const { return slabs_; }
     const ParallelLayout& layout() const { return layout_; }
-    /// Stochastic: (surface, nearness). Peeled: that of the layer, or of the one two before.
+    /// Stochastic: (surface, nearness, its slopes per pixel). Peeled: (surface, nearness) of the
+    /// layer, or of the one two before.
     const gpu::Target& image(std::uint32_t layer = 0) const
     {
         return layer % 2 == 0 ? image_ : odd_image_;

@@ -54,7 +54,7 @@ struct FromAbove {
     /// Which planes the pixels of a tile show that lie well inside the stack.
     std::vector<int> planes_shown(std::uint32_t tile) const
     {
-        std::vector<glm::uvec2> pixels(std::size_t(maps.image().width()) * maps.image().height());
+        std::vector<glm::uvec4> pixels(std::size_t(maps.image().width()) * maps.image().height());
         maps.image().download(pixels.data());
         const gpu::Area area = tiles_of(maps.layout()).area(tile);
         std::vector<int> planes;

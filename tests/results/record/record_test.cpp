@@ -47,6 +47,7 @@ BakeRecord unusual()
                                              .iteration = {Scheme::paper},
                                              .layers = Layers::stochastic,
                                              .lookups = 5,
+                                             .lookup_test = LookupTest::paper,
                                              .slabs = 7,
                                              .map_side = 333};
     record.solver.max_shots = 4096;
