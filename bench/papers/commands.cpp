@@ -137,6 +137,8 @@ void add_layers(CLI::App& app, LayersSettings& settings, Report& report)
     add_list(figure, "--overdraw", settings.overdraws, "planes behind one another");
     add_list(figure, "--slabs", settings.slabs, "that they are cut into");
     add_number(figure, "--views", settings.views, "that the chance is taken from");
+    add_given(figure, settings.shared, "lookup-test");
+    figure->add_option("-o,--out", settings.folder, "folder for the pictures");
     figure->callback([&settings, &report] { measure_layers(settings, report); });
 }
 
@@ -177,7 +179,7 @@ void add_directions(CLI::App& app, DirectionsSettings& settings, Report& report)
     figure->add_option(
         "--sponza", settings.sponza,
         "glTF file of one more scene, with 5 x 5 lookups and a lightmap of twice the "
-        "side");
+        "side; without it crytek_sponza/sponza.glb in the folder that LUMEL_DATA names");
     figure->add_option("-o,--out", settings.folder, "folder for the picture");
     add_number(figure, "--width", settings.width, "width of each scene's picture [pixels]");
     figure->callback([&settings, &report] { show_directions(settings, report); });

@@ -1,6 +1,7 @@
 // [TN11] figure 9: example scenes, with the directions and maps of the paper.
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -43,6 +44,16 @@ struct Example {
     int finer = 1;    ///< sides of the lightmap, as multiples of the others'
 };
 
+/// Empty if there is none.
+std::string sponza_file(const DirectionsSettings& settings)
+{
+    const char* data = std::getenv("LUMEL_DATA");
+    if (!settings.sponza.empty() || data == nullptr)
+        return settings.sponza;
+    const std::filesystem::path file = std::filesystem::path(data) / "crytek_sponza/sponza.glb";
+    return std::filesystem::exists(file) ? file.string() : "";
+}
+
 /// The Cornell box has 1102 triangles in the paper, here 1152.
 std::vector<Example> examples(const DirectionsSettings& settings)
 {
@@ -53,8 +64,8 @@ std::vector<Example> examples(const DirectionsSettings& settings)
         {"sky", "Cornell box under a sky", box, 4068, Light::sky, 6},
         {"lamp", "Cornell box with its lamp", box, 42624, Light::own, 6},
         {"landscape", "landscape", "", 3764, Light::sky}};
-    if (!settings.sponza.empty())
-        all.push_back({"sponza", "Sponza", settings.sponza, 5604, Light::sky, 1, 5, 2});
+    if (const std::string file = sponza_file(settings); !file.empty())
+        all.push_back({"sponza", "Sponza", file, 5604, Light::sky, 1, 5, 2});
     return all;
 }
 
@@ -75,19 +86,19 @@ Scene scene_of(const Example& example, const std::string& sky_file)
 }
 
 /// What came of the directions.
-struct LinkSet {
+struct Gathered {
     Image map;  ///< irradiance [lx]
     std::uint64_t directions = 0;
     gpu::StageTimes stages;  ///< [ms]
     Stopwatch watch;
 };
 
-LinkSet gather(const gpu::Device& device, const SolveScene& world, const SolverOptions& options)
+Gathered gather(const gpu::Device& device, const SolveScene& world, const SolverOptions& options)
 {
     const World resident(device, world.scene, world.lumels, &world.atlas);
     const NearField none = no_near_field(world.lumels);
     const auto solver = make_solver({&device, &resident, world.lumels, none}, options);
-    LinkSet gathered;
+    Gathered gathered;
     gathered.watch.start();
     solve(*solver, options);
     const std::vector<glm::vec3> irradiance = solver->irradiance();
@@ -102,6 +113,7 @@ SolverOptions options_for(const DirectionsSettings& settings, const Example& exa
 {
     auto directions = options_of<DirectionsOptions>(settings.shared);
     directions.layers = Layers::stochastic;
+    directions.lookup_test = LookupTest::paper;
     directions.lookups = example.lookups > 0 ? example.lookups : directions.lookups;
     SolverOptions options = papers_iteration(directions);
     options.max_shots =
@@ -110,12 +122,20 @@ SolverOptions options_for(const DirectionsSettings& settings, const Example& exa
     return options;
 }
 
-/// The same directions with exact layers: what is left is the error of the stochastic ones.
-MapError error_of_layers(const gpu::Device& device, const SolveScene& world, SolverOptions options,
-                         const LinkSet& stochastic)
+/// The paper's rule, ours and exact layers, along the same directions.
+struct Compared {
+    Gathered paper, planes, list;
+};
+
+Compared compare(const gpu::Device& device, const SolveScene& world, SolverOptions options)
 {
-    std::get<DirectionsOptions>(options.method).layers = Layers::list;
-    return compare_maps(stochastic.map, gather(device, world, options).map);
+    auto& directions = std::get<DirectionsOptions>(options.method);
+    Compared compared{.paper = gather(device, world, options)};
+    directions.lookup_test = LookupTest::planes;
+    compared.planes = gather(device, world, options);
+    directions.layers = Layers::list;
+    compared.list = gather(device, world, options);
+    return compared;
 }
 
 Image picture_of(const gpu::Device& device, const SolveScene& world, const Image& map, int width)
@@ -127,17 +147,29 @@ Image picture_of(const gpu::Device& device, const SolveScene& world, const Image
 }
 
 void add_row(Report& report, const Example& example, const SolveScene& world,
-             const LinkSet& gathered, const MapError& error)
+             const Compared& compared)
 {
-    const auto directions = double(gathered.directions);
+    const auto directions = double(compared.paper.directions);
+    const auto each = [&](double seconds) { return fixed(1e3 * seconds / directions, 2); };
     const auto ms = [&](const char* stage) {
-        return fixed(sum_of(gathered.stages, {stage}) / directions, 2);
+        return fixed(sum_of(compared.paper.stages, {stage}) / directions, 2);
     };
-    report.row({example.name, find_occluders(world.scene).indices.size() / 3,
-                world.lumels.lumels.size(), gathered.directions,
-                fixed(1e3 * gathered.watch.wall / directions, 2),
-                fixed(1e3 * gathered.watch.cpu / directions, 2), ms("look along"), ms("gather"),
-                fixed(100.0 * error.relative_rmse, 1), signed_fixed(100.0 * error.bias, 1)});
+    std::vector<Cell> cells{example.name,
+                            find_occluders(world.scene).indices.size() / 3,
+                            world.lumels.lumels.size(),
+                            compared.paper.directions,
+                            each(compared.paper.watch.wall),
+                            each(compared.paper.watch.cpu),
+                            ms("look along"),
+                            ms("gather")};
+    for (const Gathered* gathered : {&compared.paper, &compared.planes}) {
+        const MapError error = compare_maps(gathered->map, compared.list.map);
+        cells.push_back(fixed(100.0 * error.relative_rmse, 1));
+        cells.push_back(signed_fixed(100.0 * error.bias, 1));
+    }
+    cells.push_back(each(compared.list.watch.wall));
+    cells.push_back(each(compared.list.watch.cpu));
+    report.row(cells);
 }
 
 bool is_wanted(const DirectionsSettings& settings, const Example& example)
@@ -152,12 +184,11 @@ std::vector<Image> show(const DirectionsSettings& settings, const gpu::Device& d
 {
     const SolveScene world(scene_of(example, settings.sky),
                            AtlasOptions{.size = settings.shared.size * example.finer});
-    const SolverOptions options = options_for(settings, example);
-    const LinkSet gathered = gather(device, world, options);
-    add_row(report, example, world, gathered, error_of_layers(device, world, options, gathered));
+    const Compared compared = compare(device, world, options_for(settings, example));
+    add_row(report, example, world, compared);
     if (settings.folder.empty())
         return {};
-    return {picture_of(device, world, gathered.map, settings.width)};
+    return {picture_of(device, world, compared.paper.map, settings.width)};
 }
 
 }  // namespace
@@ -173,7 +204,8 @@ void show_directions(const DirectionsSettings& settings, Report& report)
                  "Scenes lit by global directions ([TN11] figure 9); draw and gather: device, ms a "
                  "direction",
                  {"scene", "triangles", "lumels", "directions", "wall ms per direction", "cpu ms",
-                  "draw", "gather", "RMSE against list, %", "bias, %"});
+                  "draw", "gather", "RMSE against list, %", "bias, %", "by planes, RMSE, %",
+                  "by planes, bias, %", "list, wall ms", "list, cpu ms"});
     std::vector<std::vector<Image>> rows(1);
     for (const Example& example : examples(settings)) {
         if (!is_wanted(settings, example))

@@ -70,10 +70,11 @@ struct LayersSettings {
     std::vector<int> overdraws{1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20};  ///< planes in the stack
     std::vector<int> slabs{1, 2, 4};  ///< that divide the planes, or are left out
     int views = 4;                    ///< that the chance is taken from
+    std::string folder;               ///< for the pictures; empty: none are made
 };
 
-/// [TN11] figures 7 and 8: the chance that a surface is found, and the red light that leaks where
-/// it is not.
+/// [TN11] figures 2, 7 and 8: illumination maps, the chance that a surface is found, and the red
+/// light that leaks where it is not.
 void measure_layers(const LayersSettings& settings, Report& report);
 
 struct LeakSettings {
@@ -90,7 +91,7 @@ struct DirectionsSettings {
     int directions = 0;               ///< for each scene; 0: as many as the paper
     std::vector<std::string> scenes;  ///< keys of the table in directions.cpp; empty: all
     std::string sky;                  ///< file; empty: a clear sky
-    std::string sponza;               ///< file of one more scene; empty: it is left out
+    std::string sponza;               ///< file of one more scene; empty: as of LUMEL_DATA
     std::string folder;               ///< for the picture; empty: none is made
     int width = 320;                  ///< of each scene's picture [pixels]
 };

@@ -1,15 +1,19 @@
-// [TN11] figures 7 and 8: the chance that a surface is among the lookups, and how much red light
-// a stack of planes leaks onto one that can see no red.
+// [TN11] figures 2, 7 and 8: illumination maps, the chance that a surface is among the lookups, and
+// how much red light a stack of planes leaks onto one that can see no red.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "base/images/image_files.h"
+#include "bench/papers/contact_sheet.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
+#include "bench/papers/layer_pictures.h"
 #include "bench/stopwatch.h"
 #include "methods/directions/slabs.h"
 #include "raster/parallel/illumination_maps.h"
@@ -23,6 +27,8 @@ namespace {
 
 /// Distance of the planes of a stack, whose sides are 1 m [m].
 constexpr float kGap = 0.1f;
+/// Side of the picture of a plane [pixels].
+constexpr int kPlanePicture = 160;
 /// Side of the atlas of a stack of planes [texels].
 constexpr int kStackAtlas = 64;
 /// Lookups to each side of a pixel: 9 and 25 in all, as in figure 7.
@@ -118,7 +124,7 @@ PlaneMaps read_maps(const IlluminationMaps& maps, const Lumels& lumels)
     for (const Lumel& lumel : lumels.lumels)
         plane_of[lumel.texel] = int(lumel.instance);
     const gpu::Target& image = maps.image();
-    std::vector<glm::uvec2> pixels(std::size_t(image.width()) * image.height());
+    std::vector<glm::uvec4> pixels(std::size_t(image.width()) * image.height());
     image.download(pixels.data());
     PlaneMaps read{int(maps.layout().side), {}};
     for (std::uint32_t slab = 0; slab < maps.slabs(); ++slab) {
@@ -232,12 +238,27 @@ double red_error(const SolveScene& world, const std::vector<glm::vec3>& irradian
     return (sum.r - sum.g) / sum.g;
 }
 
+/// Of the paper's three filters and of exact layers.
+bool is_pictured(const Variant& variant)
+{
+    return variant.layers != Layers::peel && variant.slabs == 1;
+}
+
+void add_picture(Report& report, const LayersSettings& settings, const char* name,
+                 const Image& picture, const char* caption)
+{
+    const std::string path = settings.folder + name;
+    write_png(path, picture);
+    report.picture(path, caption);
+}
+
 void add_red(Report& report, const LayersSettings& settings, const gpu::Device& device,
              const SolveScene& world)
 {
     const World resident(device, world.scene, world.lumels, &world.atlas);
     report.table("red", "Red light that leaks onto the plane on top ([TN11] figure 8)",
                  {"layers", "red error above, %", "below, %", "wall ms per direction", "cpu ms"});
+    std::vector<Image> planes;
     for (const Variant& variant : kVariants) {
         auto options = options_of<DirectionsOptions>(settings.shared);
         options.layers = variant.layers;
@@ -260,7 +281,13 @@ void add_red(Report& report, const LayersSettings& settings, const gpu::Device& 
                     fixed(100.0 * red_error(world, irradiance, kLumelBack), 2),
                     fixed(1e3 * watch.wall / directions, 2),
                     fixed(1e3 * watch.cpu / directions, 2)});
+        if (is_pictured(variant))
+            planes.push_back(plane_on_top(world, irradiance, kPlanePicture));
     }
+    if (!settings.folder.empty())
+        add_picture(report, settings, "/leaks.png", tone_map(contact_sheet({planes})),
+                    "The plane on top from below, [TN11] figure 8: 1 × 1, 3 × 3 and 5 × 5 lookups, "
+                    "and lists, which leak nothing");
 }
 
 }  // namespace
@@ -277,6 +304,13 @@ void measure_layers(const LayersSettings& settings, Report& report)
     report.say(fmt::format("{}, {} lumels at {}², {} directions, maps of {}², {}", shared.scene,
                            world.lumels.lumels.size(), world.atlas.width, settings.directions,
                            map_side, words_of(device)));
+    if (!settings.folder.empty()) {
+        std::filesystem::create_directories(settings.folder);
+        add_picture(report, settings, "/illumination-map.png",
+                    four_cubes_along_a_direction(settings, device),
+                    "Four cubes along one direction, [TN11] figure 2: the illumination map, with "
+                    "black backs; the surfaces behind each pixel, the more the darker");
+    }
     add_red(report, settings, device, world);
     add_chances(report, settings, device);
     device.check_validation();

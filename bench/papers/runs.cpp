@@ -49,8 +49,9 @@ constexpr Run kRuns[] = {
      "Excess of red over green on the plane on top after all directions, on its lower side, where "
      "light may leak. The distances and albedos of the planes are ours: the paper does not give "
      "its own.",
-     "layers --size 64 --directions 1500 --views 2", "layers --size 64",
-     "layers --size 16 --map-side 64 --directions 4 --overdraw 1,4 --slabs 1,2 --views 1"},
+     "layers --size 64 --directions 1500 --views 2 --lookup-test paper -o {out}",
+     "layers --size 64 --lookup-test paper -o {out}",
+     "layers --size 16 --map-side 64 --directions 4 --overdraw 1,4 --slabs 1,2 --views 1 -o {out}"},
     {"leak", "Leaky integration",
      "Error of the running solution after the directions of a row, against a mean of many.",
      "leak --size 48 --map-side 256", "leak", "leak --size 16 --map-side 64 --directions 4,8"},
