@@ -88,7 +88,8 @@ void encode_logarithms(CodedMatrix& coded, const ColorMatrix& matrix, const Codi
     const LogOptions logarithms{.exact_share = options.exact_share,
                                 .offset = options.offset,
                                 .reordering = options.reordering,
-                                .mend = options.mend};
+                                .mend = options.mend,
+                                .spread = options.spread};
     if (options.code == Code::bc1) {
         Bc1Matrix bc1 = compress_bc1(matrix, logarithms);
         coded.decoding = std::move(bc1.decoding);

@@ -23,6 +23,7 @@ struct CodingOptions {
     float offset = 25.0f;
     Reordering reordering = Reordering::rows_and_columns;
     bool mend = true;
+    bool spread = true;
 };
 
 struct CodedMatrix {

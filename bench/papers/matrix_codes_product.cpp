@@ -21,10 +21,10 @@ MultiplyCoded::MultiplyCoded(const gpu::Device& device, const CodedMatrix& matri
     : width_(filled_up(matrix.decoding.size)),
       in_(device, std::size_t(states) * 3 * width_),
       out_(device, std::size_t(states) * 3 * width_),
-      gather_(device, matrix.decoding.size, width_, matrix.decoding.column_order, {}),
+      gather_(device, matrix.decoding.size, width_, matrix.decoding.order, {}),
       product_(device, matrix.code, planes_of(matrix), matrix.decoding.size, matrix.decoding.size,
                decoding_of(matrix)),
-      scatter_(device, matrix.decoding.size, width_, matrix.decoding.row_order, {},
+      scatter_(device, matrix.decoding.size, width_, matrix.decoding.order, {},
                matrix.decoding.exact)
 {
 }

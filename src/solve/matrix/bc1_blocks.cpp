@@ -6,12 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "solve/matrix/log_code.shared.h"
 
 namespace lumel {
 namespace {
+
+/// How alike the light of neighbouring columns is: errors count over about 16 columns.
+constexpr float kAlike = 1.0f - 1.0f / 16.0f;
 
 constexpr int kSixths = 6;        // mixtures are thirds and halves of two codes
 constexpr int kMaxSearches = 16;  // each tries every step of both ends
@@ -57,7 +61,7 @@ constexpr Coded unpack(std::uint32_t code)
 }
 
 /// Codes by index, in sixths: the ends and two between them, or one and black.
-constexpr std::array<int, 4> palette_of(int a, int b, bool black)
+constexpr std::array<int, 4> mixtures_of(int a, int b, bool black)
 {
     return {6 * a, 6 * b, black ? 3 * a + 3 * b : 4 * a + 2 * b, black ? 0 : 2 * a + 4 * b};
 }
@@ -67,35 +71,78 @@ bool is_zero(const std::array<float, 3>& code)
     return code[0] < kMinLogCode && code[1] < kMinLogCode && code[2] < kMinLogCode;
 }
 
+/// Squared.
+float distance(const std::array<float, 3>& a, const std::array<float, 3>& b,
+               const std::array<float, 3>& weight)
+{
+    float sum = 0.0f;
+    for (std::size_t c = 0; c < 3; ++c)
+        sum += weight[c] * (a[c] - b[c]) * (a[c] - b[c]);
+    return sum;
+}
+
+using Palette = std::array<std::array<float, 3>, 4>;
+
+std::uint32_t nearest(const Palette& palette, const std::array<float, 3>& entry,
+                      const std::array<float, 3>& weight)
+{
+    std::uint32_t best = 0;
+    float least = distance(palette[0], entry, weight);
+    for (std::uint32_t index = 1; index < palette.size(); ++index) {
+        const float off = distance(palette[index], entry, weight);
+        if (off < least) {
+            least = off;
+            best = index;
+        }
+    }
+    return best;
+}
+
+/// r_(j − 1) becomes r_j.
+std::uint32_t spread(const Palette& palette, const std::array<float, 3>& entry,
+                     const std::array<float, 3>& weight, std::array<float, 3>& error)
+{
+    std::array<float, 3> wanted = entry;
+    for (std::size_t c = 0; c < 3; ++c)
+        wanted[c] += 0.5f * kAlike * error[c];
+    const std::uint32_t index = nearest(palette, wanted, weight);
+    for (std::size_t c = 0; c < 3; ++c)
+        error[c] = kAlike * error[c] + weight[c] * (entry[c] - palette[index][c]);
+    return index;
+}
+
 }  // namespace
+
+struct Bc1Encoder::Wanted {
+    ColorBlock entry{}, weight{};
+    std::optional<RowErrors> carried;  ///< to the block, if errors are spread
+};
 
 struct Bc1Encoder::Ends {
     std::array<Coded, 2> color{};
     bool black = false;  ///< three colours and 0, instead of four
     float error = 0.0f;
 
-    /// Two pairs to start from: the corners of the bounding box, and the brightest texel with the
-    /// mean. black: without texels that are 0.
-    static std::array<Ends, 2> starts(const ColorBlock& codes, bool black)
+    /// Two pairs to start from: the corners of the bounding box, and its upper one with the mean.
+    /// black: without texels that are 0.
+    static std::array<Ends, 2> starts(const ColorBlock& codes, const FreeChannels& free, bool black)
     {
-        std::array<float, 3> low{}, high{}, mean{}, brightest{};
-        low.fill(kLogCodes);
-        float count = 0.0f;
-        for (const std::array<float, 3>& code : codes) {
-            if (black && is_zero(code))
-                continue;
-            for (std::size_t c = 0; c < 3; ++c) {
-                low[c] = std::min(low[c], code[c]);
-                high[c] = std::max(high[c], code[c]);
-                mean[c] = (mean[c] * count + code[c]) / (count + 1.0f);
+        std::array<float, 3> low{}, high{}, mean{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            float count = 0.0f;
+            low[c] = kLogCodes;
+            for (std::size_t i = 0; i < kBlockTexels; ++i) {
+                if ((free[i] >> c & 1u) != 0 || (black && is_zero(codes[i])))
+                    continue;
+                low[c] = std::min(low[c], codes[i][c]);
+                high[c] = std::max(high[c], codes[i][c]);
+                mean[c] = (mean[c] * count + codes[i][c]) / (count + 1.0f);
+                count += 1.0f;
             }
-            if (code[0] + code[1] + code[2] > brightest[0] + brightest[1] + brightest[2])
-                brightest = code;
-            count += 1.0f;
+            low[c] = count > 0.0f ? low[c] : 0.0f;
         }
-        low = count > 0.0f ? low : high;
         return {Ends{{quantised(high), quantised(low)}, black},
-                Ends{{quantised(brightest), quantised(mean)}, black}};
+                Ends{{quantised(high), quantised(mean)}, black}};
     }
 };
 
@@ -105,8 +152,8 @@ ColorBlock decode_bc1(const BlockWords& words)
     ColorBlock texels;
     for (std::size_t c = 0; c < 3; ++c) {
         const std::array<int, 4> palette =
-            palette_of(expand(unpack(first)[c], kBits[c]), expand(unpack(second)[c], kBits[c]),
-                       first <= second);
+            mixtures_of(expand(unpack(first)[c], kBits[c]), expand(unpack(second)[c], kBits[c]),
+                        first <= second);
         for (std::size_t i = 0; i < kBlockTexels; ++i)
             texels[i][c] = float(palette[words[1] >> (2 * i) & 3u]) / kSixths;
     }
@@ -130,44 +177,66 @@ float Bc1Encoder::entry_of(float code) const
     return code < kMinLogCode ? 0.0f : std::exp(code * step_ - offset_);
 }
 
-/// Squared error, or any number from `limit` on if it is not below. indices [kBlockTexels] of the
-/// nearest colours, unless null.
-float Bc1Encoder::error_of(const ColorBlock& entries, const Ends& ends, float limit,
-                           std::uint32_t* indices) const
+std::array<std::array<float, 3>, 4> Bc1Encoder::palette_of(const Ends& ends) const
 {
     std::array<std::array<float, 3>, 4> palette{};
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::array<int, 4> codes = palette_of(expand(ends.color[0][c], kBits[c]),
-                                                    expand(ends.color[1][c], kBits[c]), ends.black);
+        const std::array<int, 4> codes = mixtures_of(
+            expand(ends.color[0][c], kBits[c]), expand(ends.color[1][c], kBits[c]), ends.black);
         for (std::size_t index = 0; index < palette.size(); ++index)
             palette[index][c] = scale_[c] * entry_[std::size_t(codes[index])];
     }
+    return palette;
+}
+
+// If light x is alike by ρ^|j − k| in columns j and k, a row's error Σ e_j x_j is as large as
+// r_j = ρ r_(j − 1) + e_j, here of e_j = v_j − p_j. Errors that are spread minimise Σ e_j² + r_j²;
+// each texel takes the colour p of the least term, which is the nearest to v + ρ r_(j − 1) / 2.
+
+/// Σ e², with Σ r² if errors are spread; or any number from `limit` on if it is not below.
+float Bc1Encoder::error_of(const Wanted& wanted, const Ends& ends, float limit) const
+{
+    const auto palette = palette_of(ends);
     float sum = 0.0f;
+    if (!wanted.carried) {
+        for (std::size_t i = 0; i < kBlockTexels && sum < limit; ++i)
+            sum += distance(palette[nearest(palette, wanted.entry[i], wanted.weight[i])],
+                            wanted.entry[i], wanted.weight[i]);
+        return sum;
+    }
+    RowErrors carried = *wanted.carried;
     for (std::size_t i = 0; i < kBlockTexels && sum < limit; ++i) {
-        float least = INFINITY;
-        for (std::uint32_t index = 0; index < palette.size(); ++index) {
-            float off = 0.0f;
-            for (std::size_t c = 0; c < 3; ++c)
-                off += (palette[index][c] - entries[i][c]) * (palette[index][c] - entries[i][c]);
-            if (off < least) {
-                least = off;
-                if (indices)
-                    indices[i] = index;
-            }
-        }
-        sum += least;
+        const std::uint32_t index =
+            spread(palette, wanted.entry[i], wanted.weight[i], carried[i / kBlockSide]);
+        sum += distance(palette[index], wanted.entry[i], wanted.weight[i]) +
+               distance(carried[i / kBlockSide], {}, wanted.weight[i]);
     }
     return sum;
 }
 
-Bc1Encoder::Ends Bc1Encoder::refined(const ColorBlock& entries, Ends ends) const
+/// Of the nearest colours, two bits for each texel. carried: unless null, becomes that after the
+/// block.
+std::uint32_t Bc1Encoder::indices_of(const Wanted& wanted, const Ends& ends,
+                                     RowErrors* carried) const
+{
+    const auto palette = palette_of(ends);
+    std::uint32_t indices = 0;
+    for (std::size_t i = 0; i < kBlockTexels; ++i)
+        indices |= (carried ? spread(palette, wanted.entry[i], wanted.weight[i],
+                                     (*carried)[i / kBlockSide])
+                            : nearest(palette, wanted.entry[i], wanted.weight[i]))
+                   << (2 * i);
+    return indices;
+}
+
+Bc1Encoder::Ends Bc1Encoder::refined(const Wanted& wanted, Ends ends) const
 {
     const auto moved = [](Ends from, std::size_t end, const Coded& step, int sign) {
         for (std::size_t c = 0; c < 3; ++c)
             from.color[end][c] += sign * step[c];
         return from;
     };
-    ends.error = error_of(entries, ends, INFINITY, nullptr);
+    ends.error = error_of(wanted, ends, INFINITY);
     bool nearer = true;
     for (int round = 0; nearer && round < kMaxSearches; ++round) {
         nearer = false;
@@ -177,7 +246,7 @@ Bc1Encoder::Ends Bc1Encoder::refined(const ColorBlock& entries, Ends ends) const
                     Ends next = moved(ends, end, step, sign);
                     if (!fits(next.color[end]))
                         continue;
-                    next.error = error_of(entries, next, ends.error, nullptr);
+                    next.error = error_of(wanted, next, ends.error);
                     if (next.error < ends.error) {
                         ends = next;
                         nearer = true;
@@ -188,27 +257,27 @@ Bc1Encoder::Ends Bc1Encoder::refined(const ColorBlock& entries, Ends ends) const
 }
 
 // Four colours need ends that differ, the larger number first; three need the smaller first.
-BlockWords Bc1Encoder::encode(const ColorBlock& codes) const
+BlockWords Bc1Encoder::encode(const ColorBlock& codes, const FreeChannels& free,
+                              RowErrors* carried) const
 {
-    ColorBlock entries;
+    Wanted wanted;
     for (std::size_t i = 0; i < kBlockTexels; ++i)
-        for (std::size_t c = 0; c < 3; ++c)
-            entries[i][c] = scale_[c] * entry_of(codes[i][c]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            wanted.entry[i][c] = scale_[c] * entry_of(codes[i][c]);
+            wanted.weight[i][c] = (free[i] >> c & 1u) != 0 ? 0.0f : 1.0f;
+        }
+    if (carried)
+        wanted.carried = *carried;
     Ends best{.error = INFINITY};
     for (const bool black : {true, false})
-        for (const Ends& start : Ends::starts(codes, black)) {
-            const Ends ends = refined(entries, start);
+        for (const Ends& start : Ends::starts(codes, free, black)) {
+            const Ends ends = refined(wanted, start);
             if (ends.error < best.error && (black || ends.color[0] != ends.color[1]))
                 best = ends;
         }
     if ((pack(best.color[0]) > pack(best.color[1])) == best.black)
         std::swap(best.color[0], best.color[1]);
-    std::array<std::uint32_t, kBlockTexels> indices{};
-    error_of(entries, best, INFINITY, indices.data());
-    BlockWords words = {pack(best.color[0]) | pack(best.color[1]) << 16, 0u};
-    for (std::size_t i = 0; i < kBlockTexels; ++i)
-        words[1] |= indices[i] << (2 * i);
-    return words;
+    return {pack(best.color[0]) | pack(best.color[1]) << 16, indices_of(wanted, best, carried)};
 }
 
 }  // namespace lumel

@@ -17,6 +17,14 @@ using ColorBlock = std::array<std::array<float, 3>, kBlockTexels>;
 
 ColorBlock decode_bc1(const BlockWords& words);
 
+/// Bits of the channels of each texel whose error does not count.
+using FreeChannels = std::array<std::uint8_t, kBlockTexels>;
+inline constexpr std::uint8_t kFreeTexel = 7;
+
+/// Errors (entry − what it decodes to) of a row's columns before a block, each by how alike the
+/// light is that passes there and here [row][channel].
+using RowErrors = std::array<std::array<float, 3>, kBlockSide>;
+
 /// Encodes blocks of logarithms: codes ln(v) 255 / offset + 255. Minimises the squared errors of
 /// the entries v, not those of their codes: an error of a code weighs in proportion to the entry. A
 /// block may have a fourth colour for entries that are 0 (DXT1's black).
@@ -25,14 +33,21 @@ public:
     /// largest: of each channel, the entry of code 255.
     Bc1Encoder(float offset, const std::array<float, 3>& largest);
 
-    BlockWords encode(const ColorBlock& codes) const;
+    /// free: channels that do not count. carried: unless null, texels make up for the errors of
+    /// their row so far, which are updated. So errors of entries cancel in the light.
+    BlockWords encode(const ColorBlock& codes, const FreeChannels& free = {},
+                      RowErrors* carried = nullptr) const;
 
 private:
     struct Ends;
 
-    Ends refined(const ColorBlock& entries, Ends ends) const;
-    float error_of(const ColorBlock& entries, const Ends& ends, float limit,
-                   std::uint32_t* indices) const;
+    /// Entries and what their errors count, 1 or 0.
+    struct Wanted;
+
+    Ends refined(const Wanted& wanted, Ends ends) const;
+    std::array<std::array<float, 3>, 4> palette_of(const Ends& ends) const;
+    float error_of(const Wanted& wanted, const Ends& ends, float limit) const;
+    std::uint32_t indices_of(const Wanted& wanted, const Ends& ends, RowErrors* carried) const;
     /// v / largest of its channel
     float entry_of(float code) const;
 

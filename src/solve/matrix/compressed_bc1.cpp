@@ -7,18 +7,37 @@ namespace {
 
 constexpr std::size_t kBlockWords = std::tuple_size_v<BlockWords>;
 
-std::vector<std::uint32_t> blocks_of(const LogImage& image, const Bc1Encoder& encoder)
+/// Rows of blocks from left to right, so that a row's errors can be carried along.
+std::vector<std::uint32_t> blocks_of(const LogImage& image, const LogDecoding& decoding,
+                                     const LogOptions& options)
 {
-    std::vector<std::uint32_t> blocks(image.channel[0].size() / kBlockTexels * kBlockWords);
-    for_blocks(image.side, [&](std::size_t block, const auto& texel) {
-        ColorBlock codes;
-        for (std::size_t i = 0; i < kBlockTexels; ++i)
-            for (std::size_t c = 0; c < 3; ++c)
-                codes[i][c] = image.channel[c][texel(i)];
-        const BlockWords words = encoder.encode(codes);
-        std::copy(words.begin(), words.end(), &blocks[block * kBlockWords]);
+    const Bc1Encoder encoder(decoding.offset, decoding.largest);
+    const std::vector<std::uint8_t> free =
+        options.mend ? free_channels(decoding) : std::vector<std::uint8_t>();
+    const std::size_t side = image.side, blocks = side / kBlockSide;
+    std::vector<std::uint32_t> words(blocks * blocks * kBlockWords);
+    parallel_for(blocks, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) {
+            RowErrors carried{};
+            for (std::size_t column = 0; column < blocks; ++column) {
+                ColorBlock codes;
+                FreeChannels free_here{};
+                for (std::size_t i = 0; i < kBlockTexels; ++i) {
+                    const std::size_t texel = (row * kBlockSide + i / kBlockSide) * side +
+                                              column * kBlockSide + i % kBlockSide;
+                    for (std::size_t c = 0; c < 3; ++c)
+                        codes[i][c] = image.channel[c][texel];
+                    if (!free.empty())
+                        free_here[i] = free[texel];
+                }
+                const BlockWords found =
+                    encoder.encode(codes, free_here, options.spread ? &carried : nullptr);
+                std::copy(found.begin(), found.end(),
+                          &words[(row * blocks + column) * kBlockWords]);
+            }
+        }
     });
-    return blocks;
+    return words;
 }
 
 }  // namespace
@@ -41,8 +60,8 @@ LogImage image_of(const Bc1Matrix& compressed)
 Bc1Matrix compress_bc1(const ColorMatrix& matrix, const LogOptions& options)
 {
     auto [image, decoding] = take_logarithms(matrix, options);
-    const Bc1Encoder encoder(decoding.offset, decoding.largest);
-    Bc1Matrix compressed{std::move(decoding), blocks_of(image, encoder)};
+    Bc1Matrix compressed{.decoding = std::move(decoding), .blocks = {}};
+    compressed.blocks = blocks_of(image, compressed.decoding, options);
     if (options.mend)
         mend(compressed.decoding, image_of(compressed));
     return compressed;

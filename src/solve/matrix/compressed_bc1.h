@@ -1,6 +1,6 @@
 #pragma once
-// A color matrix as the paper stores it: logarithms in a texture of BC1 blocks, rows and columns
-// reordered, the largest entries apart [SF17 section 3.5].
+// A color matrix as the paper stores it: logarithms in a texture of BC1 blocks, patches reordered,
+// the largest entries apart [SF17 section 3.5].
 
 #include "solve/matrix/log_image.h"
 

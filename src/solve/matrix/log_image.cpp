@@ -1,7 +1,6 @@
 // The largest share of each row is kept; the rest is divided by the largest of its channel, and
 // ln(v) + offset is brought to 0…255. Beyond the paper: exact parts that restore what the image
-// loses (LogOptions::mend), and rows ordered apart from columns, which a gather of x and a scatter
-// of y make free.
+// loses (LogOptions::mend).
 
 #include "solve/matrix/log_image.h"
 
@@ -85,32 +84,31 @@ std::vector<float> likenesses(const LogImage& image, std::uint32_t n, bool colum
     return rows;
 }
 
+/// [SF17 figure 6]. The second order, by columns, replaces the first: swaps change neither the
+/// distances between columns nor the patch that comes first.
 void reorder(LogImage& image, LogDecoding& decoding, Reordering how)
 {
     const std::uint32_t n = decoding.size;
     if (how == Reordering::none)
         return;
-    decoding.column_order.resize(n);
-    std::iota(decoding.column_order.begin(), decoding.column_order.end(), 0u);
-    decoding.row_order = order_by_likeness(likenesses(image, n, false), n, 3 * n);
-    if (how == Reordering::rows_and_columns)
-        decoding.column_order = order_by_likeness(likenesses(image, n, true), n, 3 * n);
-    image = reordered(image, decoding.row_order, decoding.column_order);
+    const bool columns = how == Reordering::rows_and_columns;
+    decoding.order = order_by_likeness(likenesses(image, n, columns), n, 3 * n);
+    image = reordered(image, decoding.order);
 }
 
 /// All but the exact part.
 ColorMatrix rest_of(const LogImage& image, const LogDecoding& decoding)
 {
     const std::size_t n = decoding.size;
-    const bool ordered = !decoding.row_order.empty();
+    const bool ordered = !decoding.order.empty();
     ColorMatrix matrix;
     for (int c = 0; c < 3; ++c) {
         matrix.channel[c] = {decoding.size, std::vector<float>(n * n)};
         parallel_for(n, kRowsPerTask, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
                 for (std::size_t j = 0; j < n; ++j) {
-                    const std::size_t row = ordered ? decoding.row_order[i] : i;
-                    const std::size_t column = ordered ? decoding.column_order[j] : j;
+                    const std::size_t row = ordered ? decoding.order[i] : i;
+                    const std::size_t column = ordered ? decoding.order[j] : j;
                     matrix.channel[c].values[row * n + column] = from_log_code(
                         image.channel[c][i * image.side + j], decoding.largest[c], decoding.offset);
                 }
@@ -123,7 +121,7 @@ ColorMatrix rest_of(const LogImage& image, const LogDecoding& decoding)
 
 std::size_t LogDecoding::bytes() const
 {
-    return (row_order.size() + column_order.size()) * sizeof(std::uint32_t) + exact.bytes();
+    return order.size() * sizeof(std::uint32_t) + exact.bytes();
 }
 
 std::pair<LogImage, LogDecoding> take_logarithms(const ColorMatrix& matrix,
@@ -154,18 +152,35 @@ ColorMatrix from_logarithms(const LogImage& stored, const LogDecoding& decoding)
     return matrix;
 }
 
-LogImage reordered(const LogImage& image, std::span<const std::uint32_t> rows,
-                   std::span<const std::uint32_t> columns)
+LogImage reordered(const LogImage& image, std::span<const std::uint32_t> order)
 {
     LogImage result{image.side, {}};
     for (int c = 0; c < 3; ++c) {
         result.channel[c].assign(image.channel[c].size(), 0.0f);
-        for (std::size_t i = 0; i < rows.size(); ++i)
-            for (std::size_t j = 0; j < columns.size(); ++j)
+        for (std::size_t i = 0; i < order.size(); ++i)
+            for (std::size_t j = 0; j < order.size(); ++j)
                 result.channel[c][i * image.side + j] =
-                    image.channel[c][std::size_t(rows[i]) * image.side + columns[j]];
+                    image.channel[c][std::size_t(order[i]) * image.side + order[j]];
     }
     return result;
+}
+
+std::vector<std::uint8_t> free_channels(const LogDecoding& decoding)
+{
+    const std::size_t n = decoding.size, side = filled_up(decoding.size);
+    std::vector<std::uint8_t> channels(side * side, kFreeTexel);
+    std::vector<std::uint32_t> place(n);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        place[decoding.order.empty() ? i : decoding.order[i]] = i;
+        std::fill_n(&channels[i * side], n, std::uint8_t(0));
+    }
+    const SparsePart& exact = decoding.exact;
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t entry = 0; entry < exact.column[c].size(); ++entry) {
+            const std::size_t row = place[entry / exact.per_row];
+            channels[row * side + place[exact.column[c][entry]]] |= std::uint8_t(1u << c);
+        }
+    return channels;
 }
 
 }  // namespace lumel

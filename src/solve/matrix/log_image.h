@@ -14,12 +14,13 @@ namespace lumel {
 
 struct LogOptions {
     float exact_share = 0.04f;  ///< of each row of each channel, kept as it is; 0…1
-    float offset = 12.0f;       ///< entries below e^-offset of the largest become 0
+    float offset = 25.0f;       ///< entries below e^-offset of the largest become 0
     Reordering reordering = Reordering::rows_and_columns;
-    /// True: the image stores the row's largest other entry in place of an exact one, and the exact
-    /// part stores the difference from the decoded value. False, as in the paper: the image stores
-    /// 0 there, and the value that the block decodes to is added to the exact entry.
+    /// True: the exact part stores the difference from what its texel decodes to, which then may be
+    /// anything. False, as the paper writes: the image stores 0 there, and what the block decodes
+    /// to is added to the exact entry.
     bool mend = true;
+    bool spread = true;  ///< BC1: rounding errors are carried along rows, so that sums keep
 };
 
 /// Codes 0…255: channels [side][side], filled up with 0 to whole blocks.
@@ -33,13 +34,14 @@ struct LogDecoding {
     std::uint32_t size = 0;          ///< rows of the matrix
     std::array<float, 3> largest{};  ///< of each channel, without the exact part
     float offset = 0.0f;
-    std::vector<std::uint32_t> row_order, column_order;  ///< [size] index in the matrix; or empty
-    SparsePart exact;                                    ///< added to the matrix, in its order
+    /// [size] index in the matrix of a row, of its column and of their patch; or empty
+    std::vector<std::uint32_t> order;
+    SparsePart exact;  ///< added to the matrix, in its order
 
     template <class Archive>
     void state(Archive& archive)
     {
-        archive(size, largest, offset, row_order, column_order, exact);
+        archive(size, largest, offset, order, exact);
     }
     std::size_t bytes() const;
 };
@@ -54,9 +56,12 @@ void mend(LogDecoding& decoding, const LogImage& stored);
 
 ColorMatrix from_logarithms(const LogImage& stored, const LogDecoding& decoding);
 
-/// Moves the code at (rows[i], columns[j]) to (i, j).
-LogImage reordered(const LogImage& image, std::span<const std::uint32_t> rows,
-                   std::span<const std::uint32_t> columns);
+/// Moves the code at (order[i], order[j]) to (i, j).
+LogImage reordered(const LogImage& image, std::span<const std::uint32_t> order);
+
+/// Bits of the channels of a texel that no light passes through: of exact entries, which `mend`
+/// restores, and of what fills up the image. [side][side]
+std::vector<std::uint8_t> free_channels(const LogDecoding& decoding);
 
 /// `size` filled up to a whole number of blocks.
 constexpr std::uint32_t filled_up(std::uint32_t size)

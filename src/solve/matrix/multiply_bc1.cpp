@@ -54,10 +54,10 @@ MultiplyBc1::MultiplyBc1(const gpu::Device& device, const Bc1Matrix& matrix, std
       decoding_(decoding_of(matrix.decoding)),
       in_(device, std::size_t(states) * 3 * width_),
       out_(device, std::size_t(states) * 3 * width_),
-      gather_(device, matrix.decoding.size, width_, matrix.decoding.column_order, {}),
+      gather_(device, matrix.decoding.size, width_, matrix.decoding.order, {}),
       codes_(texture_of(device, matrix)),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
-      scatter_(device, matrix.decoding.size, width_, matrix.decoding.row_order, {},
+      scatter_(device, matrix.decoding.size, width_, matrix.decoding.order, {},
                matrix.decoding.exact)
 {
 }

@@ -14,8 +14,14 @@
 namespace lumel {
 namespace {
 
-/// Numbers of forms. 0, codes of single entries, and 1, low rank, are no longer read.
-constexpr std::uint32_t kNoLongerRead = 1, kTiles = 2, kBc1 = 3;
+/// Numbers of forms. 0, codes of single entries, 1, low rank, and 3, BC1 with rows and columns in
+/// orders of their own, are no longer read.
+constexpr std::uint32_t kTiles = 2, kBc1 = 4;
+
+constexpr bool is_no_longer_read(std::uint32_t form)
+{
+    return form < kBc1 && form != kTiles;
+}
 
 bool is_permutation(const std::vector<std::uint32_t>& order, std::size_t size)
 {
@@ -42,16 +48,11 @@ bool is_sound(const Bc1Matrix& matrix)
 {
     const LogDecoding& decoding = matrix.decoding;
     const std::size_t size = decoding.size, side = filled_up(decoding.size) / kBlockSide;
-    const auto is_order = [&](const std::vector<std::uint32_t>& order) {
-        return is_permutation(order, size);
-    };
     return size <= kMaxColumns && matrix.blocks.size() == side * side * 2 &&
            std::isfinite(decoding.offset) &&
            std::all_of(decoding.largest.begin(), decoding.largest.end(),
                        [](float largest) { return std::isfinite(largest); }) &&
-           decoding.row_order.empty() == decoding.column_order.empty() &&
-           (decoding.row_order.empty() ||
-            (is_order(decoding.row_order) && is_order(decoding.column_order))) &&
+           (decoding.order.empty() || is_permutation(decoding.order, size)) &&
            is_sound(decoding.exact, size);
 }
 
@@ -118,7 +119,7 @@ CompressedMatrix from_bytes(const std::string& bytes, const std::string& where)
     StateReader reader(stream, bytes.size(), where, kMatrixDamage);
     std::uint32_t form = 0;
     reader(form);
-    if (form <= kNoLongerRead)
+    if (is_no_longer_read(form))
         throw Error(ErrorKind::input, where,
                     "holds a matrix in a form that is no longer read; bake the scene again");
     if (form > kBc1)

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/core/error.h"
 #include "solve/matrix/multiply.h"
 #include "tests/solve/matrix/products.h"
 #include "tests/solve/matrix/random_matrix.h"
@@ -41,6 +42,26 @@ TEST(MultiplyOnGpu, OfATextureOfSingleColoursIsTheStoredMatrix)
     expect_products(on_gpu(device, Multiply(device, compressed, 2), x, 2), decompress(compressed),
                     x, kPowerRounding);
     EXPECT_EQ(device.validation_messages(), "");
+}
+
+// A host that leaves textureCompressionBC off.
+TEST(MultiplyOnGpu, OfATextureOnADeviceWithoutBlockTexturesIsRefusedInOneSentence)
+{
+    const gpu::Device host;
+    const gpu::Device guest({.instance = host.instance(),
+                             .physical = host.physical(),
+                             .device = host.handle(),
+                             .queue = host.queue(),
+                             .queue_family = host.queue_family()});
+    try {
+        const Multiply product(guest, compress_bc1(shuffled_kernel(16, 1), {}), 1);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::device);
+        EXPECT_EQ(std::string(error.what()),
+                  guest.info().name + ": has no BC1 textures, which this matrix is stored in; bake "
+                                      "the scene with --form tiles");
+    }
 }
 
 TEST(MultiplyOnGpu, IsTheStoredMatrixOfTiles)

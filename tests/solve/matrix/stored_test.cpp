@@ -61,10 +61,10 @@ TEST(StoredMatrix, CutShortIsRefused)
     }
 }
 
-// Codes of single entries and matrices of low rank have been forms 0 and 1.
+// Codes of single entries, matrices of low rank and BC1 with two orders have been forms 0, 1 and 3.
 TEST(StoredMatrix, InAFormThatIsNoLongerReadIsRefusedInOneSentence)
 {
-    for (const int form : {0, 1, 4}) {
+    for (const int form : {0, 1, 3, 5}) {
         std::string bytes = to_bytes(one_of_each()[0]);
         bytes[0] = char(form);
         try {
@@ -73,7 +73,7 @@ TEST(StoredMatrix, InAFormThatIsNoLongerReadIsRefusedInOneSentence)
         } catch (const Error& error) {
             EXPECT_EQ(error.kind(), ErrorKind::input);
             EXPECT_EQ(std::string(error.what()),
-                      form < 2 ? "scene.lumelmat: holds a matrix in a form that is no longer read; "
+                      form < 4 ? "scene.lumelmat: holds a matrix in a form that is no longer read; "
                                  "bake the scene again"
                                : "scene.lumelmat: is damaged; bake the scene again");
         }
