@@ -117,6 +117,33 @@ TEST(Memory, ThatIsNotThereIsASentenceWithASizeThatFits)
     EXPECT_EQ(shortage_of(501, 1, memory_limits(0, kSoftware, 0)), "");
 }
 
+// Matrices grow with the square of the patches, whatever the side of the map.
+TEST(Memory, ThatAMatrixDoesNotHaveIsASentenceWithFewerPatches)
+{
+    const MemoryLimits limits = memory_limits(0, kCard, 500 * kMebibyte);
+    const HostMemory host{.lumels = 100 * kMebibyte, .matrices = 1600 * kMebibyte, .patches = 4096};
+    const std::string sentence = shortage({}, host, 64, limits);
+    for (const char* part : {"a matrix of 4096 patches", "1700.0 MiB of host memory", "500.0 MiB",
+                             "--patches 1942 or fewer"})  // half, and some to spare
+        EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+    const MemoryLimits little = memory_limits(0, kCard, 50 * kMebibyte);
+    EXPECT_NE(shortage({}, host, 64, little).find("--size"), std::string::npos);
+}
+
+TEST(Memory, OfAMatrixIsRefusedBeforeTheBake)
+{
+    const Scene scene = read_gltf(support::source_path("scenes/cornell-box.gltf"));
+    MatrixOptions matrix;
+    matrix.transport.patches = 16384;
+    const BakeOptions options{.atlas = {.size = 128}, .solver = {.method = matrix}};
+    try {
+        check_memory(scene, options, memory_limits(0, kSoftware, 4000 * kMebibyte));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("--patches"), std::string::npos) << error.what();
+    }
+}
+
 TEST(Memory, ThatIsAllowedBoundsDeviceAndHostEach)
 {
     const MemoryLimits limits = memory_limits(200 * kMebibyte, kCard, 50 * kMebibyte);

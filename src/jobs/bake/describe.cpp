@@ -30,9 +30,9 @@ Json json_of(const GraphicsMemory& bytes)
 
 Json json_of(const HostMemory& bytes)
 {
-    return {{"program", bytes.program}, {"scene", bytes.scene},    {"trees", bytes.trees},
-            {"atlas", bytes.atlas},     {"lumels", bytes.lumels},  {"solver", bytes.solver},
-            {"links", bytes.links},     {"working", bytes.working}};
+    return {{"program", bytes.program}, {"scene", bytes.scene},     {"trees", bytes.trees},
+            {"atlas", bytes.atlas},     {"lumels", bytes.lumels},   {"solver", bytes.solver},
+            {"links", bytes.links},     {"working", bytes.working}, {"matrices", bytes.matrices}};
 }
 
 /// Buried lumels and open area, estimated from a sample of lumels.

@@ -24,6 +24,9 @@ constexpr std::uint64_t kProgramBytes = 98u << 20;
 constexpr std::uint64_t kCompilerBytes = 60u << 20;
 /// Memory per lumel of the matrix method, as measured [bytes].
 constexpr std::uint64_t kMatrixLumelBytes = 380;
+/// Floats for each pair of patches while a matrix is stored as BC1: form factors, three channels of
+/// reflections, and of their logarithms, decoded as codes and as entries.
+constexpr std::uint64_t kMatrixFloats = 1 + 3 + 3 + 3 + 3;
 /// Memory per triangle for BVHs and charts, as measured [bytes].
 constexpr std::uint64_t kTreeBytes = 130, kChartedBytes = 90;
 /// A JSON value in memory, and the number of values per written primitive with its accessors.
@@ -147,9 +150,12 @@ std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool
 void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& options)
 {
     const std::uint64_t lumels = sizes.lumels;
-    if (const auto* matrix = std::get_if<MatrixOptions>(&options.solver.method))
-        memory.solver = kMatrixLumelBytes * lumels +
-                        LumelRowsBuilder::host_bytes(lumels, matrix->transport.patches);
+    if (const auto* matrix = std::get_if<MatrixOptions>(&options.solver.method)) {
+        memory.patches = std::min<std::uint64_t>(lumels, matrix->transport.patches);
+        memory.matrices = kMatrixFloats * sizeof(float) * memory.patches * memory.patches;
+        memory.solver =
+            kMatrixLumelBytes * lumels + LumelRowsBuilder::host_bytes(lumels, memory.patches);
+    }
     if (!uses_links(options))
         return;
     memory.solver = LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels, sizes.lamps);

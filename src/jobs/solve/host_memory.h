@@ -38,11 +38,12 @@ struct HostMemory {
     /// Largest temporary memory of a stage: sweeps, the finish of maps, the preview or files. On a
     /// CPU device it includes the preview's device memory.
     std::uint64_t working = 0;
-    std::uint64_t fixed = 0;  ///< part that does not depend on the map's size
+    std::uint64_t fixed = 0;                  ///< part that does not depend on the map's size
+    std::uint64_t matrices = 0, patches = 0;  ///< between this number of patches
 
     std::uint64_t most() const
     {
-        return program + scene + trees + atlas + lumels + solver + links + working;
+        return program + scene + trees + atlas + lumels + solver + links + working + matrices;
     }
     std::uint64_t without_links() const { return most() - links; }
     std::uint64_t least() const { return without_links() + first_links; }

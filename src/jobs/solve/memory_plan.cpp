@@ -13,6 +13,7 @@
 #include "jobs/solve/sources.h"
 #include "jobs/solve/stages.h"
 #include "links/trace/link_casters.h"
+#include "methods/matrix/option_table.h"
 #include "methods/matrix/relight_solver.h"
 #include "methods/methods.h"
 #include "raster/world/world.h"
@@ -46,6 +47,22 @@ std::string sentence(const char* kind, std::uint64_t needed, std::uint64_t fixed
                        side, memory_text(needed), kind, owner, memory_text(limit),
                        fitting > 0 ? fmt::format("use --size {} or less", fitting)
                                    : fmt::format("any size needs at least {}", memory_text(fixed)));
+}
+
+/// A sentence if the bake would fit with fewer patches, else empty. needed: with those of `host`.
+std::string patches_sentence(const HostMemory& host, std::uint64_t needed, std::uint64_t limit,
+                             const char* owner)
+{
+    const std::uint64_t others = needed - host.matrices;
+    if (host.matrices == 0 || others >= limit)
+        return {};
+    const double share = double(limit - others) / double(host.matrices);
+    const auto fitting = std::int64_t(double(host.patches) * std::sqrt(kSpare * share));
+    if (fitting < kMinPatches)
+        return {};
+    return fmt::format("a matrix of {} patches needs about {} of host memory with all else, but {} "
+                       "{}; use --patches {} or fewer",
+                       host.patches, memory_text(needed), owner, memory_text(limit), fitting);
 }
 
 void refuse(const std::string& shortage)
@@ -120,10 +137,12 @@ std::string shortage(const GraphicsMemory& device, const HostMemory& host, int s
                                         : limits.of.name + " has");
     const std::uint64_t software = limits.shared ? device.most() : 0;
     const std::uint64_t fixed = host.fixed + (limits.shared ? device.staging + device.rays : 0);
-    if (limits.host > 0 && host.least() + software > limits.host)
-        return sentence("host", host.least() + software, fixed, side, limits.host,
-                        limits.given ? allowed : "this machine has");
-    return {};
+    const std::uint64_t needed = host.least() + software;
+    if (limits.host == 0 || needed <= limits.host)
+        return {};
+    const char* owner = limits.given ? allowed : "this machine has";
+    const std::string fewer = patches_sentence(host, needed, limits.host, owner);
+    return fewer.empty() ? sentence("host", needed, fixed, side, limits.host, owner) : fewer;
 }
 
 void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLimits& limits)
