@@ -261,6 +261,7 @@ void add_matrix_speed(CLI::App& app, MatrixSpeedSettings& settings, Report& repo
     add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
     add_number(figure, "--patches", settings.patches, "of the simplified scene, at most", 8);
     add_list(figure, "--bounces", settings.bounces, "of naive radiosity");
+    add_list(figure, "--growth", settings.growth, "patches to compare codes at; none: not");
     add_number(figure, "--large", settings.large, "rows of a matrix of random numbers", 0);
     add_number(figure, "--repeats", settings.repeats, "timed at a stretch");
     figure->callback([&settings, &report] { time_matrices(settings, report); });

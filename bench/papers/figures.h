@@ -144,6 +144,7 @@ struct MatrixSpeedSettings {
     Settings shared;
     int patches = 2048;                    ///< n at most, of the scene
     std::vector<int> bounces{1, 2, 4, 8};  ///< of naive radiosity
+    std::vector<int> growth;               ///< patches to compare codes at; empty: none
     int large = 8192;                      ///< rows of a matrix of random numbers; 0: none
     int repeats = 8;                       ///< timed at a stretch
 };

@@ -4,12 +4,13 @@
 #include <variant>
 
 #include "bench/papers/matrix_codes.h"
+#include "bench/papers/matrix_hierarchy.h"
 #include "bench/papers/matrix_low_rank.h"
 #include "solve/matrix/compressed_tiles.h"
 
 namespace lumel::bench {
 
-using AnyMatrix = std::variant<CodedMatrix, LowRankMatrix, TiledMatrix>;
+using AnyMatrix = std::variant<CodedMatrix, LowRankMatrix, HierarchicalMatrix, TiledMatrix>;
 
 inline std::size_t bytes_of(const AnyMatrix& matrix)
 {
@@ -23,6 +24,8 @@ inline ColorMatrix whole(const AnyMatrix& matrix)
         return decode(*coded);
     if (const auto* low_rank = std::get_if<LowRankMatrix>(&matrix))
         return decompress(*low_rank);
+    if (const auto* blocks = std::get_if<HierarchicalMatrix>(&matrix))
+        return decompress(*blocks);
     return decompress(std::get<TiledMatrix>(matrix));
 }
 

@@ -64,9 +64,10 @@ double naive_bytes(const MatrixCase& matrix_case)
     return 4.0 * double(matrix_case.size()) * double(matrix_case.size());
 }
 
-CodingOptions papers_settings()
+/// As the paper writes: 0 in place of exact entries, each block for itself.
+CodingOptions as_written(Code code = Code::bc1)
 {
-    return {.code = Code::bc1, .mend = false};
+    return {.code = code, .mend = false, .spread = false};
 }
 
 void add_distribution(Report& report, const MatrixCase& matrix_case)
@@ -96,10 +97,10 @@ void add_distribution(Report& report, const MatrixCase& matrix_case)
 void add_shares(Report& report, const MatrixCase& matrix_case, const std::vector<double>& shares)
 {
     report.table(
-        "shares", "Error against the share kept exactly ([SF17] figure 2), the paper's settings",
+        "shares", "Error against the share kept exactly ([SF17] figure 2), BC1",
         {"share %", "Σ e", "Σ e²", "largest", "light, RMSE %", "worst %", "naive / bytes"});
     for (const double share : shares) {
-        CodingOptions options = papers_settings();
+        CodingOptions options;
         options.exact_share = float(share / kPercent);
         const CodedMatrix coded = encode(matrix_case.bounces, options);
         const ColorMatrix decoded = decode(coded);
@@ -112,20 +113,35 @@ void add_shares(Report& report, const MatrixCase& matrix_case, const std::vector
     }
 }
 
+struct BlockEncoder {
+    const char* name;
+    CodingOptions options;
+};
+
+/// Of one format, which any decoder of BC1 reads.
+std::vector<BlockEncoder> encoders()
+{
+    CodingOptions restored = as_written();
+    restored.mend = true;
+    return {{"as written, blocks of codes", as_written(Code::bc1_of_codes)},
+            {"as written, blocks of entries", as_written()},
+            {"exact part restored", restored},
+            {"--form bc1", CodingOptions{}}};
+}
+
 void add_reorderings(Report& report, const ColorMatrix& matrix, const char* patches)
 {
     constexpr std::array names = {"as it is", "rows", "rows and columns"};
-    for (const bool mend : {false, true}) {
+    for (const BlockEncoder& encoder : encoders()) {
         EntryError without;
         for (const Reordering how :
              {Reordering::none, Reordering::rows, Reordering::rows_and_columns}) {
-            CodingOptions options = papers_settings();
-            options.mend = mend;
+            CodingOptions options = encoder.options;
             options.reordering = how;
             const EntryError error = entry_error(decode(encode(matrix, options)), matrix);
             if (how == Reordering::none)
                 without = error;
-            report.row({patches, mend ? "mended" : "the paper's", names[std::size_t(how)],
+            report.row({patches, encoder.name, names[std::size_t(how)],
                         significant(std::sqrt(error.squares) / error.entries, 3),
                         fixed(error.largest, 4), fixed(error.squares, 4),
                         fixed(without.squares / error.squares, 2), fixed(error.sum, 1),
@@ -137,8 +153,8 @@ void add_reorderings(Report& report, const ColorMatrix& matrix, const char* patc
 void add_reorderings(Report& report, const MatrixCase& matrix_case)
 {
     report.table("reordering", "Error by reordering ([SF17] figure 7), BC1",
-                 {"patches come", "exact part", "order", "√Σe² / entries", "largest", "Σ e²",
-                  "Σ e²: without / this", "Σ e", "Σ e: without / this"});
+                 {"patches come", "encoder", "order", "average: √Σe² / entries", "largest",
+                  "total: Σ e²", "Σ e²: without / this", "Σ e", "Σ e: without / this"});
     add_reorderings(report, matrix_case.bounces, "by place");
     add_reorderings(report, shuffled(matrix_case.bounces), "shuffled");
 }
@@ -160,23 +176,29 @@ std::vector<FormOfCurve> forms_of(const MatrixCase& matrix_case)
     add("float", coded({.code = Code::float32}));
     add("half", coded({.code = Code::float16}));
     for (const auto& [code, name] :
-         {std::pair{Code::log8, "8-bit logarithm"}, std::pair{Code::bc4, "BC4"},
-          std::pair{Code::bc1_of_codes, "BC1 of codes"}, std::pair{Code::bc1, "BC1"}}) {
+         {std::pair{Code::log8, "8-bit logarithm"}, std::pair{Code::bc4, "BC4"}}) {
         const Reordering order =
             code == Code::log8 ? Reordering::none : Reordering::rows_and_columns;
-        add(fmt::format("{}, the paper's settings", name),
+        add(fmt::format("{}, as written", name),
             coded({.code = code, .reordering = order, .mend = false}));
-        add(fmt::format("{}, mended, offset 12", name),
+        add(fmt::format("{}, restored, offset 12", name),
             coded({.code = code, .offset = 12.0f, .reordering = order}));
-        add(fmt::format("{}, 1 % exact, mended, offset 12", name),
-            coded({.code = code, .exact_share = 0.01f, .offset = 12.0f, .reordering = order}));
     }
+    for (const BlockEncoder& encoder : encoders())
+        add(fmt::format("BC1, {}", encoder.name), coded(encoder.options));
+    add("BC1, --form bc1 without reordering", coded({.reordering = Reordering::none}));
+    add("BC1, --form bc1 with offset 12", coded({.offset = 12.0f}));
+    add("BC1, --form bc1 with 1 % exact", coded({.exact_share = 0.01f}));
     for (const std::uint32_t part : {64u, 32u, 16u, 8u, 4u}) {
         const std::uint32_t rank = matrix_case.size() / part;
         add(fmt::format("low rank, {}", rank), [&, rank] {
             return AnyMatrix(compress_low_rank(matrix_case.bounces, matrix_case.elements, rank));
         });
     }
+    for (const float error : {0.05f, 0.02f, 0.01f})
+        add(fmt::format("blocks of low rank, error {:g} %", kPercent * double(error)), [&, error] {
+            return AnyMatrix(compress_hierarchy(matrix_case.bounces, matrix_case.elements, error));
+        });
     for (const float error : {0.1f, 0.05f, 0.02f, 0.01f, 0.005f, 0.002f})
         add(fmt::format("tiles, error {:g} %", kPercent * double(error)), [&, error] {
             return AnyMatrix(

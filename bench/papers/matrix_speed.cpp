@@ -7,12 +7,16 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <type_traits>
 
 #include <fmt/format.h>
 
 #include "base/core/error.h"
 #include "bench/papers/matrix_case.h"
 #include "bench/papers/matrix_codes_product.h"
+#include "bench/papers/matrix_form.h"
+#include "bench/papers/matrix_frame.h"
+#include "bench/papers/matrix_hierarchy_product.h"
 #include "bench/papers/matrix_low_rank_product.h"
 #include "bench/papers/matrix_speed.reflect.comp.h"
 #include "bench/papers/matrix_speed.row.comp.h"
@@ -25,6 +29,9 @@ namespace {
 
 constexpr int kStretches = 3;  // the fastest counts
 constexpr double kGigabyte = 1e9;
+constexpr int kGrowthLights = 4;  // states that errors are taken of
+// Asked of codes. Errors of entries cancel in the light, of which about 1 % is left.
+constexpr float kTilesError = 0.01f, kBlocksError = 0.05f;
 
 struct Time {
     double cpu_ms = std::numeric_limits<double>::max();
@@ -195,6 +202,53 @@ void add_against_naive(Report& report, const gpu::Device& device, const MatrixCa
     }
 }
 
+void add_growth(Report& report, const gpu::Device& device, const MatrixSpeedSettings& settings)
+{
+    report.table("growth",
+                 fmt::format("Bytes and multiplies as patches grow, {}: beyond the paper",
+                             settings.shared.scene),
+                 {"patches", "form", "MiB", "bytes / patch", "naive / bytes", "cpu ms", "wall ms",
+                  "light, RMSE %", "seconds to compress"});
+    const double mebi = 1048576.0;
+    for (const int patches : settings.growth) {
+        const MatrixCase matrix_case =
+            make_matrix_case(device, settings.shared, std::uint32_t(patches), kGrowthLights);
+        const std::vector<glm::vec3>& light = matrix_case.lights.front();
+        const gpu::Array<glm::vec3> x(device, std::span<const glm::vec3>(light));
+        const gpu::Array<glm::vec3> y(device, light.size());
+        const double n = double(matrix_case.size()), naive = 4.0 * n * n;
+        const auto add = [&]<class Product>(const char* name, const auto& matrix,
+                                            std::type_identity<Product>, double seconds) {
+            Product product(device, matrix, 1u);
+            const Time time = time_of(device, settings.repeats, [&](gpu::Commands& commands) {
+                product.record(commands, x, y, 1u);
+            });
+            const double bytes = double(matrix.bytes());
+            report.row({fmt::format("{}", matrix_case.size()), name, fixed(bytes / mebi, 2),
+                        fixed(bytes / n, 0), fixed(naive / bytes, 1), fixed(time.cpu_ms, 2),
+                        fixed(time.wall_ms, 2),
+                        fixed(100.0 * light_error(matrix_case, whole(AnyMatrix(matrix))).mean, 2),
+                        fixed(seconds, 1)});
+        };
+        const auto timed = [](const auto& make) {
+            const double begin = cpu_seconds();
+            auto made = make();
+            return std::pair{std::move(made), cpu_seconds() - begin};
+        };
+        const auto [bc1, of_bc1] = timed([&] { return encode(matrix_case.bounces, {}); });
+        add("BC1", bc1, std::type_identity<MultiplyCoded>(), of_bc1);
+        const auto [blocks, of_blocks] = timed([&] {
+            return compress_hierarchy(matrix_case.bounces, matrix_case.elements, kBlocksError);
+        });
+        add("blocks of low rank", blocks, std::type_identity<MultiplyHierarchy>(), of_blocks);
+        const auto [tiles, of_tiles] = timed([&] {
+            return compress_tiles(matrix_case.bounces, matrix_case.elements,
+                                  {.error = kTilesError});
+        });
+        add("tiles", tiles, std::type_identity<MultiplyTiles>(), of_tiles);
+    }
+}
+
 /// Random words: as valid as any, but for floats, which are drawn.
 CodedMatrix random_matrix(Code code, std::uint32_t n)
 {
@@ -326,6 +380,9 @@ void time_matrices(const MatrixSpeedSettings& settings, Report& report)
     add_against_naive(report, device,
                       make_matrix_case(device, settings.shared, std::uint32_t(settings.patches), 1),
                       settings);
+    add_frame(report, device, settings);
+    if (!settings.growth.empty())
+        add_growth(report, device, settings);
     if (settings.large > 0)
         add_large(report, device, settings);
 }

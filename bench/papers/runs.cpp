@@ -102,8 +102,9 @@ constexpr Run kRuns[] = {
      "The multiply alone, for three colours at once, the fastest of three stretches. "
      "Naive radiosity reads the form factors, as floats without colours, once for each of 8 "
      "bounces, through the same kernel. Errors are of one state of light against all bounces.",
-     "matrix-speed --large 4096", "matrix-speed --large 8192",
-     "matrix-speed --size 16 --patches 64 --hemicube 32 --large 64 --repeats 1"},
+     "matrix-speed --large 4096 --growth 1000,2000",
+     "matrix-speed --large 8192 --growth 1000,2000,4000,8000",
+     "matrix-speed --size 16 --patches 64 --hemicube 32 --large 64 --growth 64 --repeats 1"},
 };
 
 }  // namespace
