@@ -30,8 +30,8 @@ namespace {
 constexpr int kStretches = 3;  // the fastest counts
 constexpr double kGigabyte = 1e9;
 constexpr int kGrowthLights = 4;  // states that errors are taken of
-// Asked of codes. Errors of entries cancel in the light, of which about 1 % is left.
-constexpr float kTilesError = 0.01f, kBlocksError = 0.05f;
+// Asked of codes, so that about 1 % of the light is lost by either.
+constexpr float kTilesError = 0.01f, kBlocksError = 0.02f;
 
 struct Time {
     double cpu_ms = std::numeric_limits<double>::max();
