@@ -10,6 +10,11 @@ namespace {
 constexpr int kStretches = 3;
 constexpr int kWarmUp = 8;  ///< iterations
 
+/// [BJ04] and [BSS05]: from and to the centres of texels.
+template <class Options>
+constexpr bool shoots_from_texels =
+    std::is_same_v<Options, StochasticOptions> || std::is_same_v<Options, GlossyOptions>;
+
 IterationCost measure(const gpu::Device& device, Solver& solver, int iterations)
 {
     IterationCost cost;
@@ -73,6 +78,12 @@ SolverOptions papers_iteration(MethodOptions method)
 {
     set_option(method, "scheme", "paper");
     set_option(method, "batch", "1");
+    std::visit(
+        [](auto& options) {
+            if constexpr (shoots_from_texels<std::decay_t<decltype(options)>>)
+                options.rule = SampleRule::centre;
+        },
+        method);
     return {.method = method};
 }
 

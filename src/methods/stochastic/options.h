@@ -14,7 +14,7 @@ struct StochasticOptions {
     ViewOptions views{.projection = Projection::hemicube, .hemicube = 256, .batch = 16};
     SampleRule rule = SampleRule::area;
     IterationOptions iteration;
-    bool disc = true;  ///< with Scheme::paper: shooters are discs, [BSS05] Eq. (8)
+    bool disc = false;  ///< with Scheme::paper: shooters are discs, [BSS05] Eq. (8)
     /// With Scheme::paper: squares of 2^merge texels a side shoot as one, as far as they belong to
     /// one chart, [BSS05] section 5. 0: each texel alone.
     std::uint32_t merge = 0;

@@ -16,15 +16,16 @@
 //
 // Cost of a step: K views of the occluders, and N × K point pairs.
 //
-// `Scheme::paper` with K = 1 is the papers' iteration, with three exceptions: points move over
-// receivers and shooters instead of staying at their centres, the running average is kept in two
-// halves for the error estimate, and T* acts on the average as in [BJ04] Eq. (2), not on the last
-// value as in [BSS05].
+// `Scheme::paper` with K = 1 and SampleRule::centre is the iteration of [BJ04] as published: T* acts
+// on the running average. The iteration of [BSS05], whose T* acts on the last value, is
+// GlossyIllumination's.
 //
-// Other differences from the papers:
-// - K shooters per iteration, drawn by an Owen-scrambled Sobol sequence.
-// - The iteration is in phases (iteration.cpp); a share of the shooters is drawn from E alone.
-// - Pairs of close lumels are taken out of the sampling and solved exactly (the near field).
+// Otherwise it differs from [BJ04]:
+// - Points move over receivers and shooters, except with SampleRule::centre.
+// - K shooters per iteration, with Scheme::phased drawn by an Owen-scrambled Sobol sequence.
+// - Scheme::phased iterates in phases (iteration.cpp) and draws a share of the shooters from E alone;
+//   pairs of close lumels are taken out of the sampling and solved exactly (the near field).
+// - Visibility compares planes and depths (sees.glsl), where the paper compares depths within 0.05.
 
 #include "methods/stochastic/stochastic.h"
 

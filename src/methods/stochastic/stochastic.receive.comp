@@ -8,12 +8,11 @@
 #include "raster/eyes/sees.glsl"
 #include "solve/shooting/shot.glsl"
 
-// Every lumel i receives from all K shots of a batch ([BJ04] Eq. (3); [BSS05] Eq. (2) with the
-// disc of Eq. (8)):
+// Every lumel i receives from all K shots of a batch ([BJ04] Eq. (3)):
 //
-//     H_i += Σ_k  X_j A_j / (π p_j) · V · cosθ_i cosθ_j / (r² + A_j/π),       j = j(k).
+//     H_i += Σ_k  X_j A_j / (π p_j) · V · cosθ_i cosθ_j / (r² + d),       j = j(k),
 //
-// Pairs of the near field are left out, and with them the disc term A_j/π: the near field holds
+// with d = 0, or the disc A_j/π of [BSS05] Eq. (8). Pairs of the near field are left out: it holds
 // them exactly. The point x moves over the lumel from batch to batch.
 
 layout(local_size_x = kGroup) in;

@@ -5,7 +5,7 @@
 
 // The current solution, and the difference between its two independent halves:
 //
-//     H = mean over h of (D_h + far_h)  +  near light,
+//     H = mean over h of (D_h + far_h)  +  near light,    by shots with the papers' scheme,
 //     terms: Σ |H_0 - H_1|²/4 over channels (the mean's expected squared error), Σ H, N,
 //            Σ A 𝓛(ρH);
 //            Σ |H_0 - H_1|²/4 / (H'² + dim²), relative to each lumel's own light: H' is H plus the
@@ -42,7 +42,8 @@ void main()
                         far_indirect(p.averages, s, indirect[at], earlier[at]) + near_light;
             near += 0.5 * near_light;
         }
-        const vec3 average = 0.5 * (halves[0] + halves[1]);
+        const float share = share_of_first(p.averages);
+        const vec3 average = share * halves[0] + (1.0 - share) * halves[1];
         const vec3 h_i = average + near_emission[i];
         far[i] = average - near;
         irradiance[i] = h_i;

@@ -15,6 +15,14 @@ bool has_indirect(Averages averages, uint h)
     return averages.source_shots[h] + averages.earlier_weight[h] > 0.0;
 }
 
+// Weight of the first half-solution: with balancing the halves count alike, in the papers' plain mean
+// ([BJ04] Eq. (2)) all shots do.
+float share_of_first(Averages averages)
+{
+    const float n = averages.source_shots[0] + averages.source_shots[1];
+    return averages.balance == 0u && n > 0.0 ? averages.source_shots[0] / n : 0.5;
+}
+
 // Ratio of the true indirect light to that of the shots, for half-solution h. Write the reflected
 // light as a pattern X / P of unit power times its power S. Its far light for unit source power is
 // U, averaged over all phases, and N / P is its near light. Then S must balance:
