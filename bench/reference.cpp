@@ -9,8 +9,14 @@
 #include "truth/reference.h"
 
 namespace lumel::bench {
+namespace {
 
-std::optional<Image> reference_map(const Settings& settings, const SolveScene& world)
+constexpr std::uint32_t kSeed = 99;  ///< of paths; no solver's default
+
+}  // namespace
+
+std::optional<Image> reference_map(const Settings& settings, const SolveScene& world,
+                                   std::uint32_t half)
 {
     if (!settings.reference.empty())
         return read_exr(settings.reference);
@@ -21,7 +27,7 @@ std::optional<Image> reference_map(const Settings& settings, const SolveScene& w
     const Image map = finish_map(world.scene, world.atlas, world.lumels,
                                  reference_irradiance(world.scene, world.rays, world.lumels,
                                                       {.samples_per_lumel = settings.reference_spp,
-                                                       .seed = 99,
+                                                       .seed = kSeed + half,
                                                        .rule = rule_of(settings.given.options())}));
     if (!settings.save_reference.empty())
         write_exr(settings.save_reference, map, Precision::float32, {});

@@ -95,6 +95,28 @@ void add_convergence(CLI::App& app, ConvergenceSettings& settings, Report& repor
     figure->callback([&settings, &report] { follow_convergence(settings, report); });
 }
 
+void add_visibility(CLI::App& app, VisibilitySettings& settings, Report& report)
+{
+    CLI::App* figure = add_figure(app, "visibility", "What a shooter sees", settings.shared);
+    add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
+    figure->add_option("-o,--out", settings.folder, "folder for the pictures")->required();
+    figure->callback([&settings, &report] { show_visibility(settings, report); });
+}
+
+void add_glossy_pictures(CLI::App& app, GlossyPicturesSettings& settings, Report& report)
+{
+    CLI::App* figure = app.add_subcommand("glossy-pictures", "Glossy pictures with their times");
+    figure->add_option("--device", settings.shared.device, "as lumel devices lists");
+    add_given(figure, settings.shared, "hemicube");
+    add_given(figure, settings.shared, "seed");
+    add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
+    add_number(figure, "--iterations", settings.iterations, "of the solution");
+    add_number(figure, "--width", settings.width, "of a picture [pixels]");
+    add_number(figure, "--paths", settings.paths, "per pixel, to compare with");
+    figure->add_option("-o,--out", settings.folder, "folder for the pictures")->required();
+    figure->callback([&settings, &report] { take_glossy_pictures(settings, report); });
+}
+
 void add_ablation(CLI::App& app, AblationSettings& settings, Report& report)
 {
     settings.shared.scene = "scenes/glossy-cornell-box.gltf";
@@ -274,6 +296,8 @@ void add_figures(CLI::App& app, Figures& figures, Report& report)
     add_iterations(app, figures.iterations, report);
     add_selection(app, figures.selection, report);
     add_convergence(app, figures.convergence, report);
+    add_visibility(app, figures.visibility, report);
+    add_glossy_pictures(app, figures.glossy_pictures, report);
     add_ablation(app, figures.ablation, report);
     add_frames(app, figures.frames, report);
     add_layers(app, figures.layers, report);

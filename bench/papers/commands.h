@@ -16,6 +16,8 @@ struct Figures {
     IterationSettings iterations;
     SelectionSettings selection;
     ConvergenceSettings convergence;
+    VisibilitySettings visibility;
+    GlossyPicturesSettings glossy_pictures;
     AblationSettings ablation;
     FramesSettings frames;
     LayersSettings layers;

@@ -1,7 +1,12 @@
 // [BJ04] figures 5 and 6, the scene and its map after 1, 4 and 50 iterations; [BSS05] section 6:
 // "we can expect converged images after 40 – 80 iterations".
+//
+// Each paper by its own iteration, from and to the centres of texels: [BJ04] Eq. (2), in which T*
+// acts on the running average, through a hemisphere; [BSS05] Eqs. (4) and (5), in which it acts on
+// the last value, with the merged texels of Eq. (8), through a hemicube.
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -33,14 +38,64 @@ struct Step {
     Image map, picture;
 };
 
-std::string word_for(const SolverOptions& options)
+/// An iteration that is followed.
+struct Scheme {
+    std::string name;  ///< in the table
+    std::string word;  ///< in names of files
+    SolverOptions options;
+};
+
+bool is_glossy(const Settings& settings)
 {
-    return is_papers(options.method) ? "paper" : "phased";
+    return method_of(settings.given.id).materials == MaterialModel::glossy;
 }
 
-bool is_glossy(const SolverOptions& options)
+/// The papers' that solve the scene's materials, and the default of the method that is given.
+std::vector<Scheme> schemes_of(const Settings& settings)
 {
-    return method_of(options.method).materials == MaterialModel::glossy;
+    std::vector<Scheme> schemes;
+    if (!is_glossy(settings)) {
+        auto own = options_of<StochasticOptions>(settings);
+        if (settings.given.values.count("projection") == 0)
+            own.views.projection = Projection::hemisphere;
+        schemes.push_back({"[BJ04]", "bj04", papers_iteration(own)});
+    }
+    schemes.push_back({"[BSS05]", "bss05", papers_iteration(options_of<GlossyOptions>(settings))});
+    schemes.push_back({"default", "default", solver_of(settings)});
+    return schemes;
+}
+
+/// Diffuse surfaces as a glossy method sees them.
+void leave_out_lobes(Lumels& lumels)
+{
+    for (std::size_t i = 0; i < lumels.gloss.size(); ++i)
+        lumels.gloss[i] = {lumels.lumels[i].albedo, glm::vec3(0.0f), 1.0f};
+}
+
+/// Two independent halves of the truth, or one that is given; none if nothing is compared.
+std::vector<Image> truths(const Settings& settings, const SolveScene& world)
+{
+    std::vector<Image> maps;
+    for (const std::uint32_t half : {0u, 1u})
+        if (maps.size() == half && (half == 0 || settings.reference.empty()))
+            if (std::optional<Image> map = reference_map(settings, world, half))
+                maps.push_back(std::move(*map));
+    return maps;
+}
+
+/// Of two halves free of their noise: (p - a)(p - b) = ((p - a)² + (p - b)² - (a - b)²) / 2.
+MapError error_of(const Image& map, const std::vector<Image>& halves)
+{
+    MapError error = compare_maps(map, halves[0]);
+    if (halves.size() == 1)
+        return error;
+    const MapError second = compare_maps(map, halves[1]);
+    const double apart = compare_maps(halves[0], halves[1]).relative_rmse;
+    const double square = error.relative_rmse * error.relative_rmse +
+                          second.relative_rmse * second.relative_rmse - apart * apart;
+    error.relative_rmse = std::sqrt(std::max(0.5 * square, 0.0));
+    error.bias = 0.5 * (error.bias + second.bias);
+    return error;
 }
 
 /// The glossy scene from its camera: of the papers' scheme as the iterations have it, of ours by a
@@ -62,7 +117,7 @@ Image glossy_picture(const ConvergenceSettings& settings, SolverOptions options,
 Image picture_of(const ConvergenceSettings& settings, const SolverOptions& options,
                  const gpu::Device& device, const SolveScene& world, const Step& step)
 {
-    if (is_glossy(options))
+    if (is_glossy(settings.shared))
         return glossy_picture(settings, options, step.iterations);
     return render_preview(device, world.scene, world.atlas, step.map,
                           choose_view(world.scene, world.rays), settings.width);
@@ -73,39 +128,45 @@ std::string stem_of(const ConvergenceSettings& settings)
     return settings.folder + "/" + std::filesystem::path(settings.shared.scene).stem().string();
 }
 
-/// All exposed like the last. Returns the pictures.
-std::vector<Image> write_steps(const ConvergenceSettings& settings, const SolverOptions& options,
-                               const std::vector<Step>& steps)
+/// Maps and pictures of one scheme.
+struct Row {
+    std::vector<Image> maps, pictures;
+};
+
+/// All exposed like the last.
+Row write_steps(const ConvergenceSettings& settings, const std::string& word,
+                const std::vector<Step>& steps)
 {
     std::filesystem::create_directories(settings.folder);
     const float map_exposure = choose_exposure(steps.back().map).value_or(1.0f);
     const float picture_exposure = choose_exposure(steps.back().picture).value_or(1.0f);
-    std::vector<Image> pictures;
+    Row row;
     for (const Step& step : steps) {
         const auto path = [&](const char* what) {
-            return fmt::format("{}-{}-{}-{:03}.png", stem_of(settings), word_for(options), what,
+            return fmt::format("{}-{}-{}-{:03}.png", stem_of(settings), word, what,
                                step.iterations);
         };
-        write_png(path("map"), tone_map(step.map, map_exposure));
-        pictures.push_back(tone_map(step.picture, picture_exposure));
-        write_png(path("picture"), pictures.back());
+        row.maps.push_back(tone_map(step.map, map_exposure));
+        write_png(path("map"), row.maps.back());
+        row.pictures.push_back(tone_map(step.picture, picture_exposure));
+        write_png(path("picture"), row.pictures.back());
     }
-    return pictures;
+    return row;
 }
 
-void add_row(Report& report, const SolverOptions& options, const SolverState& state, double cpu,
+void add_row(Report& report, const Scheme& scheme, const SolverState& state, double cpu,
              const std::optional<MapError>& error)
 {
-    report.row({word_for(options), state.iterations, batch_of(options.method), state.shots,
+    report.row({scheme.name, state.iterations, batch_of(scheme.options.method), state.shots,
                 error ? fixed(100.0 * error->relative_rmse, 2) : none(),
                 error ? signed_fixed(100.0 * error->bias, 2) : none(), fixed(cpu, 3)});
 }
 
-/// Returns the pictures, none without a folder for them.
-std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptions& options,
-                          const gpu::Device& device, const SolveScene& world,
-                          const std::optional<Image>& reference, Report& report)
+/// Nothing is shown without a folder.
+Row follow(const ConvergenceSettings& settings, const Scheme& scheme, const gpu::Device& device,
+           const SolveScene& world, const std::vector<Image>& truth, Report& report)
 {
+    const SolverOptions& options = scheme.options;
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
     const std::optional<LobeParticles> particles = particles_for(world, options);
@@ -132,15 +193,15 @@ std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptio
         Step step{.iterations = iterations,
                   .map = finish_map(world.scene, world.atlas, world.lumels, irradiance)};
         std::optional<MapError> error;
-        if (reference)
-            error = compare_maps(step.map, *reference);
-        add_row(report, options, solver->state(), watch.cpu, error);
+        if (!truth.empty())
+            error = error_of(step.map, truth);
+        add_row(report, scheme, solver->state(), watch.cpu, error);
         if (settings.folder.empty())
             continue;
         step.picture = picture_of(settings, options, device, world, step);
         steps.push_back(std::move(step));
     }
-    return steps.empty() ? std::vector<Image>() : write_steps(settings, options, steps);
+    return steps.empty() ? Row() : write_steps(settings, scheme.word, steps);
 }
 
 }  // namespace
@@ -148,25 +209,36 @@ std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptio
 void follow_convergence(const ConvergenceSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
-    const SolveScene world = prepare(settings.shared, settings.shared.size);
-    const std::optional<Image> reference = reference_map(settings.shared, world);
+    SolveScene world = prepare(settings.shared, settings.shared.size);
+    if (!is_glossy(settings.shared))
+        leave_out_lobes(world.lumels);
+    const std::vector<Image> truth = truths(settings.shared, world);
     report.say(fmt::format("{}, {}, {} lumels at {}², {}", settings.shared.scene,
                            settings.shared.given.id, world.lumels.lumels.size(), world.atlas.width,
                            words_of(device)));
     report.table("convergence",
                  "Error after iterations ([BJ04] figures 5 and 6); of the map, relative, against "
-                 "paths",
+                 "paths, free of their noise",
                  {"scheme", "iterations", "K", "shooters", "RMSE %", "bias %", "cpu s"});
-    const std::vector<std::vector<Image>> rows{
-        follow(settings, papers_iteration(settings.shared.given.options()), device, world,
-               reference, report),
-        follow(settings, solver_of(settings.shared), device, world, reference, report)};
+    std::vector<std::vector<Image>> maps, pictures;
+    std::string names;
+    for (const Scheme& scheme : schemes_of(settings.shared)) {
+        Row row = follow(settings, scheme, device, world, truth, report);
+        maps.push_back(std::move(row.maps));
+        pictures.push_back(std::move(row.pictures));
+        names += (names.empty() ? "" : ", ") + scheme.name;
+    }
     if (!settings.folder.empty()) {
-        const std::string sheet = stem_of(settings) + "-pictures.png";
-        write_png(sheet, contact_sheet(rows));
-        report.picture(sheet, settings.shared.scene +
-                                  ": above the papers' scheme, below the default, after the "
-                                  "iterations of the table");
+        const auto show = [&](const char* what, const std::vector<std::vector<Image>>& rows,
+                              const char* figure) {
+            const std::string sheet = stem_of(settings) + "-" + what + ".png";
+            write_png(sheet, contact_sheet(rows));
+            report.picture(sheet, fmt::format("{}, {}{}: from above by {}, after the iterations of "
+                                              "the table",
+                                              settings.shared.scene, what, figure, names));
+        };
+        show("maps", maps, " ([BJ04] figures 4 and 6)");
+        show("pictures", pictures, " ([BJ04] figure 5)");
     }
     device.check_validation();
 }

@@ -40,6 +40,25 @@ struct ConvergenceSettings {
 /// [BJ04] figures 5 and 6: error and picture after given numbers of iterations.
 void follow_convergence(const ConvergenceSettings& settings, Report& report);
 
+struct VisibilitySettings {
+    Settings shared;
+    std::string folder;  ///< for the pictures
+};
+
+/// [BJ04] figures 2 and 3: the patch of every texel, and what a shooter sees.
+void show_visibility(const VisibilitySettings& settings, Report& report);
+
+struct GlossyPicturesSettings {
+    Settings shared;
+    int iterations = 100;  ///< of the solution; the default takes as many more for the eye
+    int width = 256;       ///< of a picture [pixels]
+    int paths = 1024;      ///< per pixel, to compare with
+    std::string folder;    ///< for the pictures
+};
+
+/// [BSS05] figures 1 and 2: pictures and their times.
+void take_glossy_pictures(const GlossyPicturesSettings& settings, Report& report);
+
 struct AblationSettings {
     Settings shared;
     int seeds = 8;

@@ -20,20 +20,30 @@ constexpr Run kRuns[] = {
      "an iteration is without either.",
      "selection --sizes 64,128,512", "selection", "selection --sizes 16 --draws 4 --hemicube 32"},
     {"convergence", "Error after iterations, diffuse",
-     "Error of the map after the iterations of a row, nothing finished or filtered.",
+     "Error of the map after the iterations of a row, nothing finished or filtered, free of the noise "
+     "of the paths. [BJ04] sends the running average (Eq. 2), through a hemisphere, [BSS05] the last "
+     "iteration (Eqs. 4, 5), with merged texels (Eq. 8).",
      "convergence --size 64 --reference-spp 2048 --width 160 -o {out}",
      "convergence --reference-spp 4096 -o {out}",
      "convergence --size 16 --iterations 1,80 --hemicube 32 --reference-spp 16 --width 16 "
      "-o {out}"},
     {"convergence-glossy", "Error after iterations, glossy",
-     "The same of arriving light in a glossy scene. The default begins its average anew after 8 "
-     "and 32 iterations, so that its rows of 40, 50 and 80 iterations average 8, 18 and 48 of "
-     "them; the papers' scheme averages all.",
+     "The same of arriving light in a glossy scene. The default sends sixteen shooters and the "
+     "particles of lobes in an iteration, [BSS05] one shooter.",
      "convergence scenes/glossy-cornell-box.gltf --solver glossy --size 64 --reference-spp 2048 "
      "--width 160 -o {out}",
      "convergence scenes/glossy-cornell-box.gltf --solver glossy --reference-spp 4096 -o {out}",
      "convergence scenes/glossy-cornell-box.gltf --solver glossy --size 16 --iterations 1,80 "
      "--hemicube 32 --reference-spp 16 --width 16 -o {out}"},
+    {"visibility", "What a shooter sees",
+     "The patch of every texel, and the depth image of a hemisphere.",
+     "visibility -o {out}", "visibility --size 512 -o {out}",
+     "visibility --size 16 --hemicube 32 -o {out}"},
+    {"glossy-pictures", "Glossy pictures with their times",
+     "A whole picture from its scene, charts and visibility included. The default takes as many "
+     "shooters again for the eye. Error over pixels that show no lamp, against paths.",
+     "glossy-pictures --width 160 --paths 256 -o {out}", "glossy-pictures -o {out}",
+     "glossy-pictures --size 16 --iterations 2 --width 16 --paths 2 --hemicube 32 -o {out}"},
     {"ablation", "Variance with and without its remedies",
      "Variance between seeds, not an error against a truth. Processor time of the eye's stages "
      "only; the solution before them is the same.",

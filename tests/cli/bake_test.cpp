@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "compared.h"
 #include "png_picture.h"
 #include "program.h"
 
@@ -359,6 +360,32 @@ TEST(Reference, SaysWhetherGlossCounts)
         const auto report = nlohmann::json::parse(outcome.out, nullptr, false);
         EXPECT_EQ(report["settings"]["gloss"], gloss) << outcome.out;
     }
+}
+
+// The blocks of the box are of metal: half of what they reflect is missing without gloss.
+TEST(Reference, WithGlossHasTheMapOfAGlossyBake)
+{
+    const Workplace place;
+    const std::string scene = own_scene("glossy-cornell-box.gltf");
+    const auto map = [&](const char* folder, std::vector<std::string> line) {
+        line.insert(line.end(), {"--size", "32", "-q"});
+        const Outcome outcome = run_lumel(line);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return place.path(folder) + "/lightmap.exr";
+    };
+    const std::string baked = map("baked", {"bake", scene, place.path("baked"), "--solver",
+                                            "glossy", "--shots", "4096", "--error", "0"});
+    const auto reference = [&](const char* folder, std::vector<std::string> more) {
+        std::vector<std::string> line{"reference", scene, place.path(folder), "--spp", "1024"};
+        line.insert(line.end(), more.begin(), more.end());
+        return map(folder, line);
+    };
+    const double with_gloss = rmse_between(baked, reference("glossy", {"--gloss"}));
+    const double without = rmse_between(baked, reference("diffuse", {}));
+    RecordProperty("with_gloss", std::to_string(with_gloss));
+    RecordProperty("without", std::to_string(without));
+    EXPECT_LE(with_gloss, 0.07);  // noise of both
+    EXPECT_GE(without, 2.0 * with_gloss);
 }
 
 TEST(Reference, SaysWhichPartOfTheLightItHas)

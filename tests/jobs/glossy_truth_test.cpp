@@ -116,6 +116,19 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"PlateUnderSkySunAndLamps", plate_and_wall, 48, 1024, 4096}),
     [](const auto& test) { return test.param.name; });
 
+// 80 iterations of the default's 16 shooters.
+TEST(GlossyIterations, EightyAreWithinFourPerCentOfPaths)
+{
+    const SolveScene world(own_scene<kBox>(), AtlasOptions{.size = 64});
+    const auto truth = [&](std::uint32_t seed) {
+        return reference_irradiance(world.scene, world.rays, world.lumels,
+                                    {.samples_per_lumel = 1024, .seed = seed});
+    };
+    const double error = support::error_alone(solved(world, 1280), truth(99), truth(100));
+    RecordProperty("error", std::to_string(error));
+    EXPECT_LE(error, 0.04);
+}
+
 // What lobes reflect of lamps, and of surfaces that shine, is indirect light too.
 TEST(IndirectLight, OfLampsSkyAndAShiningSurfaceIsWhatPathsFind)
 {

@@ -33,11 +33,10 @@
 // - Pairs of close lumels exchange their diffuse light exactly (the near field), and reflect it
 //   diffusely; lobes between them use the same form factors. With Scheme::paper all pairs have the
 //   disc term of Eq. (8) instead.
-// - The average forgets the first iterations, in which light had not yet spread (not with
-//   Scheme::paper).
+// - With particles the iteration is in phases (glossy_phases.cpp). Without, the average forgets the
+//   first iterations, in which light had not yet spread (not with Scheme::paper).
 // - Frames with a new eye or changed light draw by mean power, from a common start; those of a
 //   moved scene continue from the mean light of the previous frame (glossy_frames.cpp).
-//   a moved scene go on from the mean light of the one before (glossy_frames.cpp).
 
 #include "methods/glossy/glossy.h"
 
@@ -90,8 +89,6 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       lumels_(&lumels),
       particles_(!paper_ && particles && particles->any() ? particles : nullptr),
       kernels_(device, options.views.projection),
-      views_(device, world, options.views.projection, std::uint32_t(options.views.hemicube),
-             batch_),
       eyes_{{device, kMaxGlossyBatch}, {device, kMaxGlossyBatch}},
       shots_(device, kMaxGlossyBatch),
       lobes_(device, kMaxGlossyBatch * kMaxLobes),
@@ -113,8 +110,14 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       area_power_(device, count_),
       pacer_(device)
 {
-    batch_ = std::min(batch_, views_.capacity());
     begin();
+    if (particles_) {
+        begin_phases(near, known, first_emission);
+        return;
+    }
+    views_.emplace(device, world, options.views.projection, std::uint32_t(options.views.hemicube),
+                   batch_);
+    batch_ = std::min(batch_, views_->capacity());
 }
 
 void GlossyIllumination::begin()
@@ -144,11 +147,21 @@ std::uint64_t GlossyIllumination::device_bytes(const SolveSize& size, const Glos
                (sizeof(glm::vec4) + sizeof(Gloss) + (kVectors + 2 * kHalves) * sizeof(glm::vec3)) +
            last * sizeof(glm::vec3) + phong_albedo_table().size() * sizeof(float) +
            LumelSums::device_bytes(count) + NearRows::device_bytes(count, size.near_pairs) +
-           2 * PowerPyramid::device_bytes(count) + CarriedLight::device_bytes(count);
+           2 * PowerPyramid::device_bytes(count) + CarriedLight::device_bytes(count) +
+           (options.scheme == Scheme::paper
+                ? 0
+                : PhaseParticles::device_bytes(count) +
+                      StochasticRadiosity::device_bytes(size, {.views = options.views}));
 }
 
 void GlossyIllumination::step()
 {
+    if (phases_) {
+        phases_->step();
+        state_ = phases_->state();
+        averaged_ = state_.iterations;
+        return;
+    }
     take_figures();
     if (!paper_ && !goes_on_ &&
         std::find(std::begin(kRestarts), std::end(kRestarts), state_.iterations) !=
@@ -156,10 +169,10 @@ void GlossyIllumination::step()
         restart();
     select();
     carry();
-    views_.look_from(pacer_, eyes_[state_.iterations % 2], batch_);
+    views_->look_from(pacer_, eyes_[state_.iterations % 2], batch_);
     receive();
     if (eye_)
-        eye_->receive(pacer_, views_, eyes_[state_.iterations % 2], shots_, lobes_, batch_);
+        eye_->receive(pacer_, *views_, eyes_[state_.iterations % 2], shots_, lobes_, batch_);
     has_before_ = true;
     ++batches_[iteration_++ % 2];
     ++averaged_;
@@ -240,7 +253,7 @@ void GlossyIllumination::receive()
     if (!paper_)
         pacer_.work("near",
                     [&](gpu::Commands& commands) { near_rows_.light(commands, diffuse_, near_); });
-    GlossyReceiveParams params{.views = views_.layout(),
+    GlossyReceiveParams params{.views = views_->layout(),
                                .count = count_,
                                .shots = batch_,
                                .half_index = iteration_ % 2,
@@ -254,7 +267,7 @@ void GlossyIllumination::receive()
                            .pieces = world_->pieces(),
                            .albedo_table = albedo_table_,
                            .lobes_sent = lobes_,
-                           .views = {views_.image(), views_.sampler()},
+                           .views = {views_->image(), views_->sampler()},
                            .near_first = near_rows_.first(),
                            .near_column = near_rows_.column(),
                            .near_factors = near_rows_.factor(),
@@ -305,6 +318,8 @@ void GlossyIllumination::take_figures()
 
 std::vector<glm::vec3> GlossyIllumination::irradiance()
 {
+    if (phases_)
+        return phases_->irradiance();
     pacer_.work("evaluate", [&](gpu::Commands& commands) { evaluate(commands); });
     pacer_.finish();
     return irradiance_.download();
@@ -321,12 +336,6 @@ std::vector<glm::vec3> GlossyIllumination::eye_radiance()
 {
     pacer_.finish();
     return eye_ ? eye_->radiance() : std::vector<glm::vec3>();
-}
-
-EnergyBalance GlossyIllumination::energy()
-{
-    irradiance();
-    return {emitted_power_, double(figures_.now().column[0].w)};
 }
 
 }  // namespace lumel

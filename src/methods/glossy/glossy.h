@@ -14,6 +14,8 @@
 #include "methods/glossy/glossy.shared.h"
 #include "methods/glossy/lobe_particles.h"
 #include "methods/glossy/options.h"
+#include "methods/glossy/phase_particles.h"
+#include "methods/stochastic/stochastic.h"
 #include "raster/eyes/eye_views.h"
 #include "raster/near/near_rows.h"
 #include "solve/shooting/lumel_sums.h"
@@ -47,10 +49,11 @@ public:
     void step() override;
     SolverState state() const override { return state_; }
     std::vector<glm::vec3> irradiance() override;
-    const gpu::StageTimes& times() const override { return pacer_.times(); }
-    double longest_submission() const override { return pacer_.longest_ms(); }
+    const gpu::StageTimes& times() const override;
+    double longest_submission() const override;
 
-    /// Energy balance of the current solution. Waits for the device.
+    /// Energy balance of the current solution; light of sky and lamps does not count. Waits for the
+    /// device.
     EnergyBalance energy();
 
     /// Starts a frame with emission E [N] [lm/m²]. All frames continue from the same iteration as
@@ -103,9 +106,14 @@ private:
         gpu::Array<glm::vec3> mean_exitance;
     };
 
+    StochasticOptions phase_options() const;
     void begin();
+    void begin_phases(const NearField& near, std::span<const glm::vec3> known,
+                      std::span<const glm::vec3> first_emission);
+    void leave_phases();
     void rewind();
-    void keep_average_of(const GlossyIllumination& before, float kept);
+    void keep_average_of(const GlossyIllumination& before, const std::vector<glm::vec3>& mean,
+                         float kept);
     std::vector<glm::vec3> mean_exitance();
     void draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area);
     bool has_two_choices() const;
@@ -132,8 +140,8 @@ private:
     const Lumels* lumels_;
     const LobeParticles* particles_;  ///< null: shooters send lobes
     Kernels kernels_;
-    EyeViews views_;
-    gpu::Array<Eye> eyes_[2];  ///< this iteration's and the previous one's, alternating
+    std::optional<EyeViews> views_;  ///< empty in phases, which have their own
+    gpu::Array<Eye> eyes_[2];        ///< this iteration's and the previous one's, alternating
     gpu::Array<GlossyShot> shots_;
     gpu::Array<GlossyLobe> lobes_;           ///< [K][kMaxLobes]
     gpu::Array<glm::vec4> surface_;          ///< ρ, A; A = 0 for buried lumels
@@ -153,7 +161,14 @@ private:
     NearRows near_rows_;
     PowerPyramid power_;
     PowerPyramid area_power_;  ///< used with two choices only
-    gpu::Pacer pacer_;         ///< last member: its destructor waits for work that uses others
+    gpu::Pacer pacer_;         ///< its destructor waits for work that uses the members before it
+
+    /// Until the first frame, with particles: shooters of diffuse light, and what particles add.
+    std::optional<PhaseParticles> phase_particles_;
+    std::optional<StochasticRadiosity> phases_;
+    gpu::StageTimes times_of_phases_;  ///< once they are left
+    mutable gpu::StageTimes times_;
+    double longest_of_phases_ = 0.0;  ///< [ms]
 
     SolverState state_;
     bool has_before_ = false;  ///< last_ holds the light of an earlier iteration's eyes_

@@ -60,6 +60,7 @@ double power_of(const Lumel& lumel, const glm::vec3& exitance)
 struct LobeParticles::Landing {
     std::uint32_t lumel;
     glm::vec3 power, reflected;  ///< [lm]
+    bool by_lobes;               ///< false: a first hit, whose light the caller adds
 };
 
 struct LobeParticles::Start {
@@ -178,8 +179,7 @@ void LobeParticles::follow(const Start& start, std::vector<Landing>& landings) c
         const glm::vec3 reflected =
             leaves ? at.power * gloss.specular * (cos_out / std::max(cos_in, cos_out))
                    : glm::vec3(0.0f);
-        if (lobe > 0)
-            landings.push_back({at.lumel, at.power, reflected});
+        landings.push_back({at.lumel, at.power, reflected, lobe > 0});
 
         const double chance = luminance(reflected) / start.whole;
         if (!(double(samples.random(pair + 1).x) < chance))
@@ -258,6 +258,9 @@ LobeParticles::Carried LobeParticles::carry(std::span<const glm::vec3> exitance,
     });
     for (const std::vector<Landing>& some : landings)
         for (const Landing& landing : some) {
+            carried.lobe_power += luminance(landing.reflected);
+            if (!landing.by_lobes)
+                continue;
             const float area = lumels_->lumels[landing.lumel].area;
             carried.irradiance[landing.lumel] += landing.power / area;
             carried.reflected[landing.lumel] += landing.reflected / area;

@@ -30,6 +30,7 @@ public:
     struct Carried {
         std::vector<glm::vec3> irradiance;  ///< [N] [lx] irradiance from lobes
         std::vector<glm::vec3> reflected;   ///< [N] [lm/m²] its part reflected by lobes
+        double lobe_power = 0.0;            ///< reflected by all lobes, first hits included [lm]
     };
     /// exitance: [N] [lm/m²] diffuse exitance of lumels. direct: [N] [lx] approximate irradiance by
     /// sky and lamps, or empty without these. particles: approximate number. Equal seed and light

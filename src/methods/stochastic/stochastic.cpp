@@ -16,14 +16,15 @@
 //
 // Cost of a step: K views of the occluders, and N × K point pairs.
 //
-// `Scheme::paper` with K = 1 and SampleRule::centre is the iteration of [BJ04] as published: T* acts
-// on the running average. The iteration of [BSS05], whose T* acts on the last value, is
+// `Scheme::paper` with K = 1 and SampleRule::centre is the iteration of [BJ04] as published: T*
+// acts on the running average. The iteration of [BSS05], whose T* acts on the last value, is
 // GlossyIllumination's.
 //
 // Otherwise it differs from [BJ04]:
 // - Points move over receivers and shooters, except with SampleRule::centre.
 // - K shooters per iteration, with Scheme::phased drawn by an Owen-scrambled Sobol sequence.
-// - Scheme::phased iterates in phases (iteration.cpp) and draws a share of the shooters from E alone;
+// - Scheme::phased iterates in phases (iteration.cpp) and draws a share of the shooters from E
+// alone;
 //   pairs of close lumels are taken out of the sampling and solved exactly (the near field).
 // - Visibility compares planes and depths (sees.glsl), where the paper compares depths within 0.05.
 
@@ -45,7 +46,7 @@ constexpr double kEmissionShooters = 0.5, kMinEmission = 1.0 / 16.0, kMaxEmissio
 StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World& world,
                                          const Lumels& lumels, const NearField& near,
                                          const StochasticOptions& options,
-                                         std::span<const glm::vec3> known)
+                                         std::span<const glm::vec3> known, OtherLight other)
     : options_(options),
       atlas_width_(std::uint32_t(lumels.width)),
       paper_(options.iteration.scheme == Scheme::paper),
@@ -60,6 +61,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       eyes_(device, kMaxBatch),
       shots_(device, kMaxBatch),
       iteration_(device, lumels, near, known, options.iteration, batch_),
+      other_(std::move(other)),
       emission_power_pyramid_(device, lumels.lumels.size()),
       source_power_pyramid_(device, lumels.lumels.size()),
       pacer_(device)
@@ -98,6 +100,8 @@ void StochasticRadiosity::step()
     select(emission_shots);
     views_.look_from(pacer_, eyes_, batch_);
     receive(emission_shots);
+    if (other_)
+        other_(pacer_, iteration_, emission_shots);
     if (iteration_.finish_batch(pacer_, emission_shots, batch_ - emission_shots))
         build_source_pyramid();
 }

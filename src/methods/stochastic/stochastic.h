@@ -1,6 +1,8 @@
 #pragma once
 // Stochastic radiosity by perspective ray bundles [BJ04], [BSS05]. See stochastic.cpp.
 
+#include <functional>
+
 #include "gpu/pacer.h"
 #include "methods/stochastic/options.h"
 #include "methods/stochastic/stochastic.receive.comp.h"
@@ -14,12 +16,16 @@
 
 namespace lumel {
 
+/// Adds light that shooters do not carry to the sums of a batch, before it is finished.
+using OtherLight = std::function<void(gpu::Pacer& pacer, const Iteration& iteration,
+                                      std::uint32_t emission_shots)>;
+
 /// Shooters drawn by power send their light to all lumels that they see, at once.
 class StochasticRadiosity final : public Solver {
 public:
     StochasticRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
                         const NearField& near, const StochasticOptions& options,
-                        std::span<const glm::vec3> known = {});
+                        std::span<const glm::vec3> known = {}, OtherLight other = {});
 
     /// Upper bound on GPU memory [bytes], if the device does not limit images.
     static std::uint64_t device_bytes(const SolveSize& size, const StochasticOptions& options);
@@ -29,6 +35,7 @@ public:
     std::vector<glm::vec3> irradiance() override { return iteration_.irradiance(pacer_); }
     const gpu::StageTimes& times() const override { return pacer_.times(); }
     double longest_submission() const override { return pacer_.longest_ms(); }
+    std::uint32_t batch() const { return batch_; }  ///< K
 
 private:
     void select(std::uint32_t emission_shots);
@@ -50,6 +57,7 @@ private:
     gpu::Array<Eye> eyes_;
     gpu::Array<Shot> shots_;
     Iteration iteration_;
+    OtherLight other_;
     PowerPyramid emission_power_pyramid_, source_power_pyramid_;
     gpu::Pacer pacer_;            ///< last member: its destructor waits for work that uses others
     double emission_owed_ = 0.0;  ///< fraction of a shooter carried to the next batch

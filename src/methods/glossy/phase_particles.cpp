@@ -1,0 +1,103 @@
+// The light of lobes is a second transport operator P beside that of the shooters, T:
+//
+//     H = (T + P)(E + ρ_d H),
+//
+// unbiased in every batch. It joins the sums of both parts of the light with the weight of the
+// batch's shots (iteration.cpp):
+//
+//     direct += K_E P* E,     indirect += K_X P* X,     X = ρ_d H of the phase.
+
+#include "methods/glossy/phase_particles.h"
+
+#include <cstring>
+
+namespace lumel {
+namespace {
+
+/// The random numbers of a batch: those of E and those of X.
+constexpr std::uint32_t kStreams = 2;
+
+}  // namespace
+
+PhaseParticles::Slot::Slot(const gpu::Device& device, std::size_t count)
+    : emission(device, count, gpu::Buffer::Place::host, "phase_particles.emission"),
+      source(device, count, gpu::Buffer::Place::host, "phase_particles.source")
+{
+}
+
+PhaseParticles::PhaseParticles(const gpu::Device& device, const LobeParticles& particles,
+                               std::vector<glm::vec3> emission, std::span<const glm::vec3> known,
+                               std::size_t count, std::uint32_t batch, std::uint32_t seed)
+    : particles_(&particles),
+      emission_(std::move(emission)),
+      known_(known.begin(), known.end()),
+      lumels_(emission_.size()),
+      count_(count),
+      batch_(batch),
+      seed_(seed),
+      add_(device),
+      slots_{Slot(device, lumels_), Slot(device, lumels_)}
+{
+}
+
+std::uint64_t PhaseParticles::device_bytes(std::size_t lumel_count)
+{
+    constexpr std::uint64_t kOfSlot = 2;  // number of arrays
+    return kOfSlot * kSlots * lumel_count * sizeof(glm::vec3);
+}
+
+/// Particles of E and X are in proportion to the shooters of both.
+void PhaseParticles::start(std::uint32_t emission_shots, std::uint32_t number)
+{
+    const std::size_t from_emission = count_ * emission_shots / batch_ + 1;
+    const std::size_t from_source = count_ * (batch_ - emission_shots) / batch_ + 1;
+    found_ = std::async(std::launch::async, [this, from_emission, from_source, number] {
+        const auto stream = [&](std::uint32_t of) {
+            return PathSamples::hash(seed_, kStreams * number + of);
+        };
+        Light light;
+        light[0] = particles_->carry(emission_, known_, from_emission, stream(0)).irradiance;
+        if (!source_.empty())
+            light[1] = particles_->carry(source_, {}, from_source, stream(1)).irradiance;
+        return light;
+    });
+}
+
+void PhaseParticles::add(gpu::Pacer& pacer, const Iteration& iteration,
+                         std::uint32_t emission_shots)
+{
+    if (iteration.phase() != phase_) {
+        // Particles traced ahead left from the source of the former phase.
+        if (found_.valid())
+            found_.wait();
+        pacer.finish();
+        source_ = iteration.source().download();
+        phase_ = iteration.phase();
+        start(emission_shots, number_);
+    }
+    if (!found_.valid())
+        start(emission_shots, number_);
+    const Light light = found_.get();
+    start(emission_shots, ++number_);
+
+    Slot& slot = slots_[number_ % kSlots];
+    pacer.wait(slot.ticket);
+    const auto stage = [](const std::vector<glm::vec3>& from, const gpu::Array<glm::vec3>& to) {
+        if (!from.empty())
+            std::memcpy(to.buffer().mapped(), from.data(), from.size() * sizeof(glm::vec3));
+    };
+    stage(light[0], slot.emission);
+    stage(light[1], slot.source);
+    pacer.dispatch("carried", add_,
+                   {.emission = slot.emission,
+                    .source = slot.source,
+                    .direct = iteration.direct(),
+                    .indirect = iteration.indirect()},
+                   PhaseParticlesParams{std::uint32_t(lumels_), iteration.half(),
+                                        float(emission_shots),
+                                        light[1].empty() ? 0.0f : float(batch_ - emission_shots)},
+                   lumels_);
+    slot.ticket = pacer.flush();
+}
+
+}  // namespace lumel
