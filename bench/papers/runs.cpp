@@ -20,8 +20,10 @@ constexpr Run kRuns[] = {
      "an iteration is without either.",
      "selection --sizes 64,128,512", "selection", "selection --sizes 16 --draws 4 --hemicube 32"},
     {"convergence", "Error after iterations, diffuse",
-     "Error of the map after the iterations of a row, nothing finished or filtered, free of the noise "
-     "of the paths. [BJ04] sends the running average (Eq. 2), through a hemisphere, [BSS05] the last "
+     "Error of the map after the iterations of a row, nothing finished or filtered, free of the "
+     "noise "
+     "of the paths. [BJ04] sends the running average (Eq. 2), through a hemisphere, [BSS05] the "
+     "last "
      "iteration (Eqs. 4, 5), with merged texels (Eq. 8).",
      "convergence --size 64 --reference-spp 2048 --width 160 -o {out}",
      "convergence --reference-spp 4096 -o {out}",
@@ -36,9 +38,8 @@ constexpr Run kRuns[] = {
      "convergence scenes/glossy-cornell-box.gltf --solver glossy --size 16 --iterations 1,80 "
      "--hemicube 32 --reference-spp 16 --width 16 -o {out}"},
     {"visibility", "What a shooter sees",
-     "The patch of every texel, and the depth image of a hemisphere.",
-     "visibility -o {out}", "visibility --size 512 -o {out}",
-     "visibility --size 16 --hemicube 32 -o {out}"},
+     "The patch of every texel, and the depth image of a hemisphere.", "visibility -o {out}",
+     "visibility --size 512 -o {out}", "visibility --size 16 --hemicube 32 -o {out}"},
     {"glossy-pictures", "Glossy pictures with their times",
      "A whole picture from its scene, charts and visibility included. The default takes as many "
      "shooters again for the eye. Error over pixels that show no lamp, against paths.",

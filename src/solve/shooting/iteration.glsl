@@ -15,8 +15,8 @@ bool has_indirect(Averages averages, uint h)
     return averages.source_shots[h] + averages.earlier_weight[h] > 0.0;
 }
 
-// Weight of the first half-solution: with balancing the halves count alike, in the papers' plain mean
-// ([BJ04] Eq. (2)) all shots do.
+// Weight of the first half-solution: with balancing the halves count alike, in the papers' plain
+// mean ([BJ04] Eq. (2)) all shots do.
 float share_of_first(Averages averages)
 {
     const float n = averages.source_shots[0] + averages.source_shots[1];

@@ -55,7 +55,7 @@ public:
     std::uint32_t lumels() const { return count_; }
     const SolverState& state() const { return state_; }
     std::uint32_t half() const { return phase_batch_ % 2; }
-    std::uint32_t phase() const { return phase_; }  ///< changes with X
+    std::uint32_t phase() const { return phase_; }                 ///< changes with X
     bool sends_reflected() const { return paper_ || phase_ > 0; }  ///< false: X is still 0
     /// Shots of this half-solution since the first batch.
     std::uint32_t emission_index() const { return emission_index_[half()]; }
