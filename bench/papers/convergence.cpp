@@ -35,7 +35,9 @@ constexpr std::uint32_t kRays = 16;
 
 struct Step {
     int iterations = 0;
-    Image map, picture;
+    Image map;        ///< H
+    Image radiosity;  ///< E + ρH: what the papers' textures hold
+    Image picture;
 };
 
 /// An iteration that is followed.
@@ -138,7 +140,7 @@ Row write_steps(const ConvergenceSettings& settings, const std::string& word,
                 const std::vector<Step>& steps)
 {
     std::filesystem::create_directories(settings.folder);
-    const float map_exposure = choose_exposure(steps.back().map).value_or(1.0f);
+    const float map_exposure = choose_exposure(steps.back().radiosity).value_or(1.0f);
     const float picture_exposure = choose_exposure(steps.back().picture).value_or(1.0f);
     Row row;
     for (const Step& step : steps) {
@@ -146,12 +148,20 @@ Row write_steps(const ConvergenceSettings& settings, const std::string& word,
             return fmt::format("{}-{}-{}-{:03}.png", stem_of(settings), word, what,
                                step.iterations);
         };
-        row.maps.push_back(tone_map(step.map, map_exposure));
+        row.maps.push_back(tone_map(step.radiosity, map_exposure));
         write_png(path("map"), row.maps.back());
         row.pictures.push_back(tone_map(step.picture, picture_exposure));
         write_png(path("picture"), row.pictures.back());
     }
     return row;
+}
+
+/// E + ρH [N] [lm/m²]
+std::vector<glm::vec3> radiosity_of(const Lumels& lumels, std::vector<glm::vec3> irradiance)
+{
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+        irradiance[i] = lumels.lumels[i].emission + lumels.lumels[i].albedo * irradiance[i];
+    return irradiance;
 }
 
 void add_row(Report& report, const Scheme& scheme, const SolverState& state, double cpu,
@@ -198,6 +208,8 @@ Row follow(const ConvergenceSettings& settings, const Scheme& scheme, const gpu:
         add_row(report, scheme, solver->state(), watch.cpu, error);
         if (settings.folder.empty())
             continue;
+        step.radiosity = finish_map(world.scene, world.atlas, world.lumels,
+                                    radiosity_of(world.lumels, irradiance));
         step.picture = picture_of(settings, options, device, world, step);
         steps.push_back(std::move(step));
     }
@@ -237,7 +249,7 @@ void follow_convergence(const ConvergenceSettings& settings, Report& report)
                                               "the table",
                                               settings.shared.scene, what, figure, names));
         };
-        show("maps", maps, " ([BJ04] figures 4 and 6)");
+        show("maps", maps, " of radiosity ([BJ04] figures 4 and 6)");
         show("pictures", pictures, " ([BJ04] figure 5)");
     }
     device.check_validation();
