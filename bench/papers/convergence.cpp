@@ -6,7 +6,6 @@
 // the last value, with the merged texels of Eq. (8), through a hemicube.
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -16,6 +15,7 @@
 #include "base/images/image_files.h"
 #include "bench/papers/contact_sheet.h"
 #include "bench/papers/figures.h"
+#include "bench/papers/halves.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/reference.h"
 #include "bench/stopwatch.h"
@@ -83,21 +83,6 @@ std::vector<Image> truths(const Settings& settings, const SolveScene& world)
             if (std::optional<Image> map = reference_map(settings, world, half))
                 maps.push_back(std::move(*map));
     return maps;
-}
-
-/// Of two halves free of their noise: (p - a)(p - b) = ((p - a)² + (p - b)² - (a - b)²) / 2.
-MapError error_of(const Image& map, const std::vector<Image>& halves)
-{
-    MapError error = compare_maps(map, halves[0]);
-    if (halves.size() == 1)
-        return error;
-    const MapError second = compare_maps(map, halves[1]);
-    const double apart = compare_maps(halves[0], halves[1]).relative_rmse;
-    const double square = error.relative_rmse * error.relative_rmse +
-                          second.relative_rmse * second.relative_rmse - apart * apart;
-    error.relative_rmse = std::sqrt(std::max(0.5 * square, 0.0));
-    error.bias = 0.5 * (error.bias + second.bias);
-    return error;
 }
 
 /// The glossy scene from its camera: of the papers' scheme as the iterations have it, of ours by a

@@ -43,8 +43,8 @@ constexpr Run kRuns[] = {
     {"glossy-pictures", "Glossy pictures with their times",
      "A whole picture from its scene, charts and visibility included. The default takes as many "
      "shooters again for the eye. Error over pixels that show no lamp, against paths.",
-     "glossy-pictures --width 160 --paths 256 -o {out}", "glossy-pictures -o {out}",
-     "glossy-pictures --size 16 --iterations 2 --width 16 --paths 2 --hemicube 32 -o {out}"},
+     "glossy-pictures --width 160 --paths 64 -o {out}", "glossy-pictures -o {out}",
+     "glossy-pictures --size 32 --iterations 2 --width 16 --paths 2 --hemicube 32 -o {out}"},
     {"ablation", "Variance with and without its remedies",
      "Variance between seeds, not an error against a truth. Processor time of the eye's stages "
      "only; the solution before them is the same.",

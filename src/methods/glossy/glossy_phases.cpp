@@ -18,7 +18,7 @@ namespace {
 /// Shooters per particle and lumel.
 constexpr std::size_t kShootersPerPhaseParticle = 2;
 /// Particles per lumel by which the power that lobes reflect is found.
-constexpr std::size_t kParticlesOfBalance = 64;
+constexpr std::size_t kParticlesOfBalance = 1024;
 
 /// The lumels with what they reflect diffusely alone.
 Lumels matte(Lumels lumels)

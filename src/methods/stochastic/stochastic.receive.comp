@@ -23,7 +23,8 @@ layout(scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
 vec3 receive(Receiver r, uint k)
 {
     vec3 d;
-    if (!arrives(r, k, p.views, p.near_radius, d))
+    // Where the normal is interpolated, light can come from behind the triangle.
+    if (!arrives(r, k, p.views, p.near_radius, d) || dot(d, r.facing) >= 0.0)
         return vec3(0.0);
     return shots[k].power * point_factor(d, eyes[k].normal, r.normal, shots[k].disc);
 }
