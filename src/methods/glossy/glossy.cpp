@@ -319,7 +319,7 @@ void GlossyIllumination::take_figures()
 std::vector<glm::vec3> GlossyIllumination::irradiance()
 {
     if (phases_)
-        return phases_->irradiance();
+        return mean_of_phases();
     pacer_.work("evaluate", [&](gpu::Commands& commands) { evaluate(commands); });
     pacer_.finish();
     return irradiance_.download();

@@ -110,10 +110,11 @@ private:
     void begin();
     void begin_phases(const NearField& near, std::span<const glm::vec3> known,
                       std::span<const glm::vec3> first_emission);
+    void go_on_in_phases(const std::vector<glm::vec3>& mean, float kept);
+    std::vector<glm::vec3> mean_of_phases();
     void leave_phases();
     void rewind();
-    void keep_average_of(const GlossyIllumination& before, const std::vector<glm::vec3>& mean,
-                         float kept);
+    void keep_average_of(const GlossyIllumination& before, float kept);
     std::vector<glm::vec3> mean_exitance();
     void draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area);
     bool has_two_choices() const;
@@ -168,6 +169,8 @@ private:
     std::optional<StochasticRadiosity> phases_;
     gpu::StageTimes times_of_phases_;  ///< once they are left
     mutable gpu::StageTimes times_;
+    std::vector<glm::vec3> kept_;     ///< [N] [lx] average of the frame before, or empty
+    float kept_weight_ = 0.0f;        ///< [iterations]
     double longest_of_phases_ = 0.0;  ///< [ms]
 
     SolverState state_;

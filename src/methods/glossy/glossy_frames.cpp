@@ -132,10 +132,12 @@ void GlossyIllumination::go_on_from(GlossyIllumination& before, float kept)
     if (before.count_ != count_ || before.batch_ != batch_ || before.paper_ != paper_)
         throw Error(ErrorKind::input, "the frame before",
                     "must have the same lumels, batches and scheme");
-    leave_phases();
-    restart();
     pacer_.finish();
     const std::vector<glm::vec3> mean = before.irradiance();
+    if (phases_) {
+        go_on_in_phases(mean, kept);
+        return;
+    }
     const std::vector<glm::vec3> emission = emission_.download();
     std::vector<glm::vec3> exitance = emission, diffuse = emission;
     if (paper_) {
@@ -160,26 +162,14 @@ void GlossyIllumination::go_on_from(GlossyIllumination& before, float kept)
     diffuse_.upload(diffuse);
     has_before_ = paper_;
     goes_on_ = true;
-    keep_average_of(before, mean, kept);
+    keep_average_of(before, kept);
     draw_in_proportion_to(exitance_, 0.0f);
 }
 
-/// Scales the sums of the previous frame's halves, or its mean, to a number of iterations.
-void GlossyIllumination::keep_average_of(const GlossyIllumination& before,
-                                         const std::vector<glm::vec3>& mean, float kept)
+/// Scales the sums of the previous frame's halves to a number of iterations.
+void GlossyIllumination::keep_average_of(const GlossyIllumination& before, float kept)
 {
-    if (!(kept > 0.0f) || before.averaged() == 0)
-        return;
-    if (before.phases_) {
-        std::vector<glm::vec3> sums = mean;
-        sums.insert(sums.end(), mean.begin(), mean.end());
-        for (glm::vec3& sum : sums)
-            sum *= 0.5f * kept;
-        sums_.upload(sums);
-        batches_ = {0.5f * kept, 0.5f * kept};
-        return;
-    }
-    if (std::min(before.batches_[0], before.batches_[1]) <= 0.0f)
+    if (!(kept > 0.0f) || std::min(before.batches_[0], before.batches_[1]) <= 0.0f)
         return;
     const auto scaled = [&](const gpu::Array<glm::vec3>& from, gpu::Array<glm::vec3>& to) {
         std::vector<glm::vec3> sums = from.download();

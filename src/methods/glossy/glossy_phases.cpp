@@ -4,8 +4,9 @@
 //
 // T: shooters and near pairs (stochastic.cpp), P: lobes (phase_particles.cpp). All batches count:
 // the energy balance sets the level of the light, and no iteration starts from the noise of the one
-// before, as the last value of [BSS05] does. The first frame of an eye, of other emission or of a
-// moved scene leaves the phases and continues from their mean (glossy_frames.cpp).
+// before, as the last value of [BSS05] does. A frame of a moved scene starts its phases from the
+// mean of the one before. The first frame of an eye or of other emission leaves the phases and
+// continues from their mean (glossy_frames.cpp).
 
 #include <algorithm>
 
@@ -52,13 +53,36 @@ void GlossyIllumination::begin_phases(const NearField& near, std::span<const glm
                              options_.seed);
 }
 
+/// The mean of the frame before is the guess that shooters and particles start from.
+void GlossyIllumination::go_on_in_phases(const std::vector<glm::vec3>& mean, float kept)
+{
+    std::vector<glm::vec3> source = mean;
+    for (std::size_t i = 0; i < source.size(); ++i)
+        source[i] *= lumels_->gloss[i].diffuse;
+    phases_->start_from(source);
+    kept_ = mean;
+    kept_weight_ = kept;
+}
+
+/// H of the phases, averaged with that of the frame before.
+std::vector<glm::vec3> GlossyIllumination::mean_of_phases()
+{
+    std::vector<glm::vec3> mean = phases_->irradiance();
+    const float all = kept_weight_ + float(state_.iterations);
+    if (!(kept_weight_ > 0.0f))
+        return mean;
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        mean[i] = glm::mix(mean[i], kept_[i], kept_weight_ / all);
+    return mean;
+}
+
 /// The mean becomes the light that shooters send next, and the average so far.
 void GlossyIllumination::leave_phases()
 {
     if (!phases_)
         return;
     const std::vector<glm::vec3> exitance = mean_exitance();
-    std::vector<glm::vec3> halves = phases_->irradiance();
+    std::vector<glm::vec3> halves = mean_of_phases();
     for (glm::vec3& h : halves)
         h *= 0.5f;
     halves.insert(halves.end(), halves.begin(), halves.begin() + std::ptrdiff_t(count_));
@@ -102,8 +126,15 @@ EnergyBalance GlossyIllumination::energy()
     for (std::size_t i = 0; i < arriving.size(); ++i)
         absorbed += double(lumels_->lumels[i].area) *
                     luminance(arriving[i] * (1.0f - lumels_->gloss[i].diffuse));
+    // In phases the particles of E are those of the solution; without, they start here.
+    std::vector<glm::vec3> exitance = mean_exitance();
+    if (phases_) {
+        absorbed -= phase_particles_->emission_lobe_power();
+        for (std::size_t i = 0; i < exitance.size(); ++i)
+            exitance[i] = lumels_->gloss[i].diffuse * arriving[i];
+    }
     const std::size_t particles = kParticlesOfBalance * count_;
-    absorbed -= particles_->carry(mean_exitance(), {}, particles, options_.seed).lobe_power;
+    absorbed -= particles_->carry(exitance, {}, particles, options_.seed).lobe_power;
     return {emitted_power_, absorbed};
 }
 

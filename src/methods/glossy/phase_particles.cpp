@@ -56,9 +56,9 @@ void PhaseParticles::start(std::uint32_t emission_shots, std::uint32_t number)
             return PathSamples::hash(seed_, kStreams * number + of);
         };
         Light light;
-        light[0] = particles_->carry(emission_, known_, from_emission, stream(0)).irradiance;
+        light.emission = particles_->carry(emission_, known_, from_emission, stream(0));
         if (!source_.empty())
-            light[1] = particles_->carry(source_, {}, from_source, stream(1)).irradiance;
+            light.source = particles_->carry(source_, {}, from_source, stream(1));
         return light;
     });
 }
@@ -80,24 +80,38 @@ void PhaseParticles::add(gpu::Pacer& pacer, const Iteration& iteration,
     const Light light = found_.get();
     start(emission_shots, ++number_);
 
+    lobe_power_[iteration.half()] += double(emission_shots) * light.emission.lobe_power;
+    emission_shots_[iteration.half()] += double(emission_shots);
     Slot& slot = slots_[number_ % kSlots];
     pacer.wait(slot.ticket);
     const auto stage = [](const std::vector<glm::vec3>& from, const gpu::Array<glm::vec3>& to) {
         if (!from.empty())
             std::memcpy(to.buffer().mapped(), from.data(), from.size() * sizeof(glm::vec3));
     };
-    stage(light[0], slot.emission);
-    stage(light[1], slot.source);
+    stage(light.emission.irradiance, slot.emission);
+    stage(light.source.irradiance, slot.source);
     pacer.dispatch("carried", add_,
                    {.emission = slot.emission,
                     .source = slot.source,
                     .direct = iteration.direct(),
                     .indirect = iteration.indirect()},
-                   PhaseParticlesParams{std::uint32_t(lumels_), iteration.half(),
-                                        float(emission_shots),
-                                        light[1].empty() ? 0.0f : float(batch_ - emission_shots)},
+                   PhaseParticlesParams{
+                       std::uint32_t(lumels_), iteration.half(), float(emission_shots),
+                       light.source.irradiance.empty() ? 0.0f : float(batch_ - emission_shots)},
                    lumels_);
     slot.ticket = pacer.flush();
+}
+
+/// Of both halves as Iteration averages them.
+double PhaseParticles::emission_lobe_power() const
+{
+    double sum = 0.0, halves = 0.0;
+    for (std::size_t h = 0; h < emission_shots_.size(); ++h)
+        if (emission_shots_[h] > 0.0) {
+            sum += lobe_power_[h] / emission_shots_[h];
+            halves += 1.0;
+        }
+    return halves > 0.0 ? sum / halves : 0.0;
 }
 
 }  // namespace lumel

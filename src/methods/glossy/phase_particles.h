@@ -29,11 +29,15 @@ public:
     /// shooters.
     void add(gpu::Pacer& pacer, const Iteration& iteration, std::uint32_t emission_shots);
 
+    /// What lobes reflect of E, the mean of all batches [lm].
+    double emission_lobe_power() const;
+
 private:
     static constexpr std::size_t kSlots = 2;  ///< batches in flight
 
-    /// Light of E and of X, [N] [lx]. [0] and [1].
-    using Light = std::array<std::vector<glm::vec3>, 2>;
+    struct Light {
+        LobeParticles::Carried emission, source;  ///< of E and of X
+    };
 
     /// Staging memory of a batch.
     struct Slot {
@@ -53,7 +57,8 @@ private:
     std::array<Slot, kSlots> slots_;
     std::vector<glm::vec3> source_;  ///< X [N]; empty: 0
     std::uint32_t phase_ = 0, number_ = 0;
-    std::future<Light> found_;  ///< last member: its destructor waits
+    std::array<double, 2> lobe_power_{}, emission_shots_{};  ///< sums, per half
+    std::future<Light> found_;                               ///< last member: its destructor waits
 };
 
 }  // namespace lumel

@@ -83,6 +83,12 @@ void StochasticRadiosity::build_source_pyramid()
     });
 }
 
+void StochasticRadiosity::start_from(std::span<const glm::vec3> source)
+{
+    iteration_.start_from(pacer_, source);
+    build_source_pyramid();
+}
+
 std::uint64_t StochasticRadiosity::device_bytes(const SolveSize& size,
                                                 const StochasticOptions& options)
 {

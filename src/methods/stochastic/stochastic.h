@@ -30,6 +30,8 @@ public:
     /// Upper bound on GPU memory [bytes], if the device does not limit images.
     static std::uint64_t device_bytes(const SolveSize& size, const StochasticOptions& options);
 
+    /// See Iteration::start_from.
+    void start_from(std::span<const glm::vec3> source);
     void step() override;
     SolverState state() const override { return iteration_.state(); }
     std::vector<glm::vec3> irradiance() override { return iteration_.irradiance(pacer_); }

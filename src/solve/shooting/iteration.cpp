@@ -111,6 +111,15 @@ void Iteration::begin(gpu::Pacer& pacer)
     });
 }
 
+void Iteration::start_from(gpu::Pacer& pacer, std::span<const glm::vec3> source)
+{
+    pacer.finish();
+    source_.upload(source);
+    pacer.work("prepare",
+               [&](gpu::Commands& commands) { near_rows_.light(commands, source_, near_source_); });
+    phase_ = kRoughPhases;  // the guess is better than the sources of these
+}
+
 Averages Iteration::averages() const
 {
     Averages a{};

@@ -38,6 +38,9 @@ public:
 
     /// Clears all sums; X is 0, or E with Scheme::paper.
     void begin(gpu::Pacer& pacer);
+    /// Scheme::phased, before the first batch: X [N] of the first phase, a guess of ρH. Otherwise
+    /// that phase sends E alone. Waits for the device.
+    void start_from(gpu::Pacer& pacer, std::span<const glm::vec3> source);
     /// GPU memory [bytes].
     static std::uint64_t device_bytes(std::size_t lumel_count, std::uint64_t near_pairs);
 
