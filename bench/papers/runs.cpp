@@ -27,7 +27,7 @@ constexpr Run kRuns[] = {
      "iteration (Eqs. 4, 5), with merged texels (Eq. 8).",
      "convergence --size 64 --reference-spp 2048 --width 160 -o {out}",
      "convergence --reference-spp 4096 -o {out}",
-     "convergence --size 16 --iterations 1,80 --hemicube 32 --reference-spp 16 --width 16 "
+     "convergence --size 16 --iterations 1,50,80 --hemicube 32 --reference-spp 16 --width 16 "
      "-o {out}"},
     {"convergence-glossy", "Error after iterations, glossy",
      "The same of arriving light in a glossy scene. The default sends sixteen shooters and the "
