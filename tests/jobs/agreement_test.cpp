@@ -142,11 +142,12 @@ TEST(CornellBox, ThePapersIterationConvergesToTheSameAnswer)
     const SolveScene small(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
     const std::vector<glm::vec3> truth = path_traced(small, 1024);
     const auto error = [&](std::uint64_t shots) {
-        const Solved solved = support::solve_scene(
-            small,
-            {.method = StochasticOptions{.views = in_batches(1), .iteration = {Scheme::paper}},
-             .max_shots = shots,
-             .target_error = 0.0});
+        const Solved solved =
+            support::solve_scene(small, {.method = StochasticOptions{.views = in_batches(1),
+                                                                     .iteration = {Scheme::paper},
+                                                                     .disc = true},
+                                         .max_shots = shots,
+                                         .target_error = 0.0});
         return support::lumel_error(small.lumels, solved.irradiance, truth, everywhere).rmse;
     };
     const double early = error(256), late = error(4096);
@@ -167,6 +168,7 @@ TEST(CornellBox, MergedTexelsLeaveLessNoise)
                                                     .views = in_batches(1),
                                                     .rule = SampleRule::centre,
                                                     .iteration = {Scheme::paper},
+                                                    .disc = true,
                                                     .merge = merge},
                         .max_shots = 256,
                         .target_error = 0.0});
