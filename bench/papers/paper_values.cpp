@@ -19,7 +19,8 @@ constexpr const char* kFrame =
     "The thesis: average total frame time. Ours: until at rest, with the passes that shoot what "
     "redistribution left unshot; errors at rest are in the first tables of this figure.";
 constexpr const char* kFromNothing =
-    "The thesis states no number; the bar of 10 % is ours. RMSE at rest from a progressive solution "
+    "The thesis states no number; the bar of 10 % is ours. RMSE at rest from a progressive "
+    "solution "
     "with the box in its new place from the start, on the same lumels, over that of the light "
     "before the move: what nothing done leaves is 100 %.";
 constexpr const char* kPutBack =
