@@ -159,7 +159,7 @@ TEST(DirectionalLight, GivesBackTheIrradianceOfEveryMethodSchemeAndRule)
     const std::vector<glm::vec3> normals = world_normals(world.scene, world.lumels);
     SolverOptions plain{.method = StochasticOptions{}, .max_shots = 128, .target_error = 0.0};
     SolverOptions paper = plain, centre = plain, glossy = plain;
-    paper.method = StochasticOptions{.iteration = {Scheme::paper}, .disc = true};
+    paper.method = StochasticOptions{.iteration = {Scheme::paper}};
     centre.method = StochasticOptions{.rule = SampleRule::centre};
     glossy.method = GlossyOptions{};
     for (const SolverOptions& options : {plain, paper, centre, glossy}) {

@@ -31,7 +31,7 @@ double saving(const MatrixCase& matrix_case, std::size_t bytes)
 }
 
 // "requires 3 times less memory" and "hardly differs" [SF17], which we take for 2 % of indirect
-// light, at the paper's 4 % and its offset of 25.
+// light, in the paper's format, with its 4 % and its offset of 25, by our encoder.
 void expect_papers_blocks(const MatrixCase& matrix_case)
 {
     const CodedMatrix coded = encode(matrix_case.bounces, {});

@@ -94,6 +94,12 @@ InView in_view(ParallelView view, LumelPoint point)
                   pixels_per_metre / nearness_per_metre);
 }
 
+// Distance within which a sample can be ground beside the point [pixel widths].
+float beside()
+{
+    return 2.0 * float(p.neighbours + 1u);
+}
+
 // True for the other side of the receiver's own instance.
 bool is_own_other_side(uint surface, Lumel receiver)
 {
@@ -137,7 +143,8 @@ bool is_occluder(Lookup lookup, InView point, Lumel receiver)
         return false;
     if (p.by_planes == 0u)
         return lookup.there > point.nearness;
-    return lookup.ahead > kAbovePlane && !is_own_other_side(lookup.surface, receiver);
+    return lookup.ahead > kAbovePlane &&
+           !(lookup.ahead < beside() && is_own_other_side(lookup.surface, receiver));
 }
 
 // The nearest surface within `reach` pixels of the point, or `before`.

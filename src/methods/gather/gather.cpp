@@ -33,6 +33,9 @@
 #include <bit>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "base/core/error.h"
 #include "methods/gather/hemicube_light.h"
 #include "raster/eyes/eye_views.h"
 #include "raster/eyes/hemicube_tiles.h"
@@ -59,12 +62,32 @@ float lift_of(const World& world)
     return kLift * std::max({world.diagonal(), most.x, most.y, most.z, 1e-20f});
 }
 
+/// Side of level 0 of a hemicube's mipmaps [pixels]: the tile in a square of a power of two.
+std::uint32_t mipmap_side(std::uint32_t hemicube)
+{
+    return std::bit_ceil(hemicube_tiles(hemicube, 1).width);
+}
+
+/// Maximum pixels of level 0 of all mipmaps of a batch: a dispatch of 32,768 groups.
+constexpr std::uint64_t kMaxMipmapPixels = 2u << 20;
+/// Maximum side of a hemicube that has mipmaps: those of one lumel fit a dispatch in all channels.
+constexpr int kMaxMipmapHemicube = 512;
+
 std::uint32_t wanted_hemicubes(const GatherOptions& options, std::uint32_t channels)
 {
     const Tiles tile = hemicube_tiles(std::uint32_t(options.hemicube), 1);
     const std::uint64_t pixels =
         std::max<std::uint64_t>(std::uint64_t(tile.width) * tile.height, 1);
-    const std::uint64_t fit = std::max<std::uint64_t>(kMaxEyePixels / pixels, channels);
+    std::uint64_t fit = kMaxEyePixels / pixels;
+    if (options.integration == Integration::mipmap) {
+        if (options.hemicube > kMaxMipmapHemicube)
+            throw Error(
+                ErrorKind::input, "--integration",
+                fmt::format("mipmap takes hemicubes of side {} at most", kMaxMipmapHemicube));
+        const std::uint64_t side = mipmap_side(std::uint32_t(options.hemicube));
+        fit = std::min(fit, kMaxMipmapPixels / (side * side));
+    }
+    fit = std::max<std::uint64_t>(fit, channels);
     const auto asked = std::uint32_t(options.batch);
     return std::uint32_t(std::min<std::uint64_t>(fit, std::max(asked, channels)));
 }
@@ -76,12 +99,6 @@ std::vector<std::uint32_t> open_lumels(const Lumels& lumels)
         if (!(lumels.lumels[i].flags & kLumelBuried))
             open.push_back(std::uint32_t(i));
     return open;
-}
-
-/// Side of level 0 of a hemicube's mipmaps [pixels]: the tile in a square of a power of two.
-std::uint32_t mipmap_side(std::uint32_t hemicube)
-{
-    return std::bit_ceil(hemicube_tiles(hemicube, 1).width);
 }
 
 /// Pixels of all levels of a hemicube's mipmaps.

@@ -16,8 +16,8 @@ inline constexpr OptionInfo kGatherOptions[] = {
     batch_option(member<&GatherOptions::batch>, kMaxHemicubes),
     hemicube_option(member<&GatherOptions::hemicube>),
     {.name = "integration",
-     .help = "Sum each hemicube in one pass (sum), or by a mipmap chain as on older hardware "
-             "(mipmap), which is slower",
+     .help = "Sum each hemicube in one pass (sum), or by a mipmap chain as in the thesis (mipmap); "
+             "the light is the same",
      .words = kIntegrations,
      .member = member<&GatherOptions::integration>},
 };

@@ -10,7 +10,7 @@ namespace lumel {
 /// Sum over the pixels of a hemicube [Hoef13] 4.2. Both give the same light, except for rounding.
 enum class Integration {
     sum,     ///< parallel reduction in a workgroup: reads each pixel once
-    mipmap,  ///< average of a mipmap chain, each level written to memory: slower
+    mipmap,  ///< average of a mipmap chain, each level written to memory
 };
 
 struct GatherOptions {

@@ -9,6 +9,7 @@
 
 #include "methods/glossy/phase_particles.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace lumel {
@@ -46,11 +47,12 @@ std::uint64_t PhaseParticles::device_bytes(std::size_t lumel_count)
     return kOfSlot * kSlots * lumel_count * sizeof(glm::vec3);
 }
 
-/// Particles of E and X are in proportion to the shooters of both.
+/// Particles of E and X are about in proportion to the shooters of both. They are for the next
+/// batch, which can have a shooter of either where this one has none.
 void PhaseParticles::start(std::uint32_t emission_shots, std::uint32_t number)
 {
-    const std::size_t from_emission = count_ * emission_shots / batch_ + 1;
-    const std::size_t from_source = count_ * (batch_ - emission_shots) / batch_ + 1;
+    const std::size_t from_emission = count_ * std::max(emission_shots, 1u) / batch_ + 1;
+    const std::size_t from_source = count_ * std::max(batch_ - emission_shots, 1u) / batch_ + 1;
     found_ = std::async(std::launch::async, [this, from_emission, from_source, number] {
         const auto stream = [&](std::uint32_t of) {
             return PathSamples::hash(seed_, kStreams * number + of);
@@ -102,7 +104,7 @@ void PhaseParticles::add(gpu::Pacer& pacer, const Iteration& iteration,
     slot.ticket = pacer.flush();
 }
 
-/// Of both halves as Iteration averages them.
+/// Mean of both halves, as Iteration averages them.
 double PhaseParticles::emission_lobe_power() const
 {
     double sum = 0.0, halves = 0.0;

@@ -29,7 +29,7 @@ public:
     /// shooters.
     void add(gpu::Pacer& pacer, const Iteration& iteration, std::uint32_t emission_shots);
 
-    /// What lobes reflect of E, the mean of all batches [lm].
+    /// Power of E that lobes reflect, mean of all batches [lm].
     double emission_lobe_power() const;
 
 private:

@@ -19,8 +19,8 @@
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { ChooseParams p; };
 layout(scalar) readonly buffer Charts { PatchChart charts[]; };
-layout(scalar) buffer Lights { ChartLight lights[]; };
-layout(scalar) buffer Levels { uint levels[]; };
+layout(scalar) coherent buffer Lights { ChartLight lights[]; };
+layout(scalar) coherent buffer Levels { uint levels[]; };
 layout(scalar) buffer Cursors { Cursor kept_cursor; };
 layout(scalar) writeonly buffer Chosen { ChosenPatch chosen[]; };
 layout(scalar) writeonly buffer Ambient { vec3 ambient; };
@@ -134,7 +134,7 @@ void main()
             if (me == 0u && best_chart[0] != kNoPatch)
                 begin_chart(best_chart[0]);
         }
-        memoryBarrierBuffer();  // power of the chart that began
+        memoryBarrierBuffer();  // power and level of the chart that began
         barrier();
         if (me == 0u) {
             const bool any = cursor.next < cursor.count && fits(k);

@@ -1,5 +1,5 @@
-#ifndef LUMEL_LIVE_VISIBILITY_ROWS_GLSL
-#define LUMEL_LIVE_VISIBILITY_ROWS_GLSL
+#ifndef LUMEL_PROGRESSIVE_VISIBILITY_ROWS_GLSL
+#define LUMEL_PROGRESSIVE_VISIBILITY_ROWS_GLSL
 
 // V of patches and lumels when the patch last rendered its view: one bit per pair. 32 patches share
 // a word of a lumel, which only the lumel's own invocation writes. Declares the rows of a list of

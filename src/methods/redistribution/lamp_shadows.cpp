@@ -145,9 +145,12 @@ std::vector<std::uint32_t> LampShadows::levels(const std::vector<MovedBox>& boxe
             levels[c] = kNoLevel;
         if (levels[c] == kNoLevel)
             continue;
-        const double points =
-            lamp_points(std::span(lumels_->lumels).subspan(chart.first_lumel, chart.lumel_count),
-                        boxes, {world_->low(), world_->high()}, side_);
+        const auto first = lumels_->lumels.begin() + chart.first_lumel;
+        std::vector<Lumel> lamp(first, first + chart.lumel_count);
+        const glm::mat4& place = world_->placements()[lamp.front().instance].now;
+        for (Lumel& lumel : lamp)
+            lumel.position = glm::vec3(place * glm::vec4(lumel.position, 1.0f));
+        const double points = lamp_points(lamp, boxes, {world_->low(), world_->high()}, side_);
         while (levels[c] > least_[c] && double(patches_of(chart, levels[c] - 1)) >= points)
             --levels[c];
         least_[c] = levels[c];

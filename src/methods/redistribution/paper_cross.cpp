@@ -36,6 +36,7 @@
 // - The area that protrudes is that of the grid's cells whose rays are not culled, by triangles of
 //   the objects, where the thesis clips polygons of quads.
 // - Backs of patches of open meshes occlude light as well.
+// - Of the light that movable patches send each other, patches of later batches alone send it on.
 
 #include "methods/redistribution/paper_cross.h"
 

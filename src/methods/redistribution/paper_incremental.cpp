@@ -17,6 +17,8 @@
 // Differs from the thesis:
 // - The view before the move is the stored visibility of the patch (visibility_rows.h), if it has
 //   any.
+// - Patches without it are all taken back before the first of them sends. What these send lacks the
+//   light taken back; progressive iterations shoot the rest.
 // - Charts that never shot have no patches yet: progressive iterations shoot their light.
 
 #include "methods/redistribution/paper_incremental.h"
