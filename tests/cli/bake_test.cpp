@@ -373,8 +373,8 @@ TEST(Reference, WithGlossHasTheMapOfAGlossyBake)
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         return place.path(folder) + "/lightmap.exr";
     };
-    const std::string baked = map("baked", {"bake", scene, place.path("baked"), "--solver",
-                                            "glossy", "--shots", "4096"});
+    const std::string baked =
+        map("baked", {"bake", scene, place.path("baked"), "--solver", "glossy", "--shots", "4096"});
     const auto reference = [&](const char* folder, std::vector<std::string> more) {
         std::vector<std::string> line{"reference", scene, place.path(folder), "--spp", "1024"};
         line.insert(line.end(), more.begin(), more.end());

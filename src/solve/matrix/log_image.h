@@ -17,10 +17,11 @@ struct LogOptions {
     float offset = 25.0f;       ///< entries below e^-offset of the largest become 0
     Reordering reordering = Reordering::rows_and_columns;
     /// True: the exact part stores the difference from what its texel decodes to. The texel holds
-    /// the largest other entry of its row, and BC1 does not count its error. False, as the paper writes: the image stores 0 there, and what the block decodes
-    /// to is added to the exact entry.
+    /// the largest other entry of its row, and BC1 does not count its error. False, as the paper
+    /// writes: the image stores 0 there, and what the block decodes to is added to the exact entry.
     bool mend = true;
-    bool spread = true;  ///< BC1: rounding errors are carried along rows, so that the sums of rows stay right
+    bool spread =
+        true;  ///< BC1: rounding errors are carried along rows, so that the sums of rows stay right
 };
 
 /// Codes 0…255: channels [side][side], filled up with 0 to whole blocks.
