@@ -20,12 +20,17 @@ th, td { border: 1px solid #ccc; padding: 2px 8px; text-align: left; vertical-al
 th { background: #f2f2f2; }
 caption { text-align: left; font-weight: bold; padding: 4px 0; }
 img { max-width: 100%; }
-.met { background: #dff3df; } .missed { background: #f8dcdc; }
+.met { background: #dff3df; } .missed.ours { background: #f8dcdc; }
+.missed.paper { background: #fdf3cf; } .missed.device { background: #dfe8f8; }
+p.missed { background: #f8dcdc; }
 </style>
 </head>
 <body>
 )";
 
+constexpr const char* kColours =
+    "Missed numbers have three colours: blue where the device is the cause (a processor "
+    "rasterises), yellow where the paper's own scheme is, run as published, red where it is ours.";
 constexpr const char* kTimes =
     "Ratios of times are of wall time on a GPU, and of processor time where the device is the "
     "processor, whose wall time other work lengthens.";
@@ -75,6 +80,15 @@ std::string head_of(const std::string& caption, const std::vector<std::string>& 
     return "<table>\n" + element("caption", caption) + "\n" + row_of("th", columns);
 }
 
+/// Why a number is missed or cannot be compared.
+std::string words_of_cause(Verdict verdict, Cause cause)
+{
+    if (verdict != Verdict::missed && verdict != Verdict::not_comparable)
+        return {};
+    constexpr std::array words{"", "Inherent in the paper's own scheme: ", "Physical: "};
+    return words[std::size_t(cause)];
+}
+
 /// Ours beside every number of the papers.
 std::string comparison_of(const Outcomes& outcomes)
 {
@@ -86,10 +100,11 @@ std::string comparison_of(const Outcomes& outcomes)
         const std::string verdict = words_of(judgement.verdict);
         const std::string reason = judgement.reason.empty() ? "" : judgement.reason + " ";
         page += row_of("td",
-                       std::array<std::string, 8>{value.paper, value.place, value.quantity,
-                                                  value.value, judgement.ours, bar_of(value),
-                                                  verdict, reason + value.note},
-                       "class=\"" + verdict + "\"");
+                       std::array<std::string, 8>{
+                           value.paper, value.place, value.quantity, value.value, judgement.ours,
+                           bar_of(value), verdict,
+                           reason + words_of_cause(judgement.verdict, value.cause) + value.note},
+                       fmt::format("class=\"{} {}\"", verdict, words_of(value.cause)));
     }
     return page + "</table>\n";
 }
@@ -165,7 +180,7 @@ std::string page_of(const Outcomes& outcomes, Extent extent, const std::string& 
 {
     std::string page = kHead + element("h1", "The papers' figures, made again") + "\n" +
                        element("p", words_of(extent)) + "\n" + element("p", kTimes) + "\n" +
-                       comparison_of(outcomes) + left_out();
+                       element("p", kColours) + "\n" + comparison_of(outcomes) + left_out();
     for (const Run& run : all_runs())
         if (const auto outcome = outcomes.find(run.key); outcome != outcomes.end())
             page += section_of(run, outcome->second, extent, folder);

@@ -11,6 +11,13 @@ namespace lumel::bench {
 
 enum class Bar { at_most, at_least, none };
 
+/// What a number that is missed, or cannot be compared, comes from.
+enum class Cause {
+    ours,    ///< our method, scene or setting
+    paper,   ///< the paper's own method, run as published
+    device,  ///< another kind of device, such as a processor without a GPU
+};
+
 /// A number of a paper, and where ours is found.
 struct PaperValue {
     const char* paper;  ///< as docs/references.md names it
@@ -22,6 +29,7 @@ struct PaperValue {
     double limit;  ///< of what counts as met
     /// What stands between the two numbers; why they cannot be compared, if there is no bar.
     const char* note;
+    Cause cause = Cause::ours;
 };
 
 std::span<const PaperValue> paper_values();
@@ -53,6 +61,7 @@ using Outcomes = std::map<std::string, Outcome>;
 Judgement judge(const PaperValue& value, const Outcomes& outcomes);
 
 std::string words_of(Verdict verdict);        ///< "met", "not measured"
+std::string words_of(Cause cause);            ///< "ours", "paper", "device"
 std::string bar_of(const PaperValue& value);  ///< "at most 1.25"; empty without a bar
 
 }  // namespace lumel::bench

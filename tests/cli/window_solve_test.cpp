@@ -46,7 +46,7 @@ public:
     // Heights [pixels].
     static constexpr int kRays = 109, k16Rays = 151, kAtlas = 132, kSeed = 155, kAnew = 178,
                          kMethod = 206, kStochastic = 247, kGather = 315, kMethodSeed = 229,
-                         kByLinks = 344, kByGather = 344, kByStochastic = 390, kStop = 367;
+                         kByLinks = 344, kByGather = 367, kByStochastic = 390, kStop = 390;
 
 private:
     void point(int y) const { window_->hand(fmt::format("mousemove 270 {}", y)); }

@@ -64,10 +64,12 @@ Scene plate_and_wall()
     return scene;
 }
 
-/// H [N] [lx] as bakes find it.
-std::vector<glm::vec3> solved(const SolveScene& world, std::uint64_t shots)
+/// H [N] [lx] as bakes find it. batch: shooters per iteration.
+std::vector<glm::vec3> solved(const SolveScene& world, std::uint64_t shots, int batch = 16)
 {
-    const SolverOptions options{.method = GlossyOptions{}, .max_shots = shots, .target_error = 0.0};
+    GlossyOptions method;
+    method.views.batch = batch;
+    const SolverOptions options{.method = method, .max_shots = shots, .target_error = 0.0};
     const gpu::Device device;
     const World resident(device, world.scene, world.lumels, &world.atlas);
     std::vector<glm::vec3> direct;
@@ -127,6 +129,21 @@ TEST(GlossyIterations, EightyAreWithinFourPerCentOfPaths)
     const double error = support::error_alone(solved(world, 1280), truth(99), truth(100));
     RecordProperty("error", std::to_string(error));
     EXPECT_LE(error, 0.04);
+}
+
+// Where a batch has a shooter of emission or of reflected light alone, particles carry both.
+TEST(GlossyIterations, OfOneShooterAreNotNoisierThanThoseOfSixteen)
+{
+    const SolveScene world(own_scene<kBox>(), AtlasOptions{.size = 48});
+    const auto truth = [&](std::uint32_t seed) {
+        return reference_irradiance(world.scene, world.rays, world.lumels,
+                                    {.samples_per_lumel = 1024, .seed = seed});
+    };
+    const std::vector<glm::vec3> first = truth(99), second = truth(100);
+    const auto error = [&](int batch) {
+        return support::error_alone(solved(world, 1280, batch), first, second);
+    };
+    EXPECT_LE(error(1), 1.5 * error(16));
 }
 
 // What lobes reflect of lamps, and of surfaces that shine, is indirect light too.

@@ -9,6 +9,7 @@
 #include "base/core/spherical_harmonics.h"
 #include "lights/light_sources.h"
 #include "links/trace/links.h"
+#include "methods/glossy/glossy.h"
 #include "methods/matrix/relight_solver.h"
 #include "methods/methods.h"
 #include "results/preview/preview.h"
@@ -156,6 +157,8 @@ void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& optio
         memory.solver =
             kMatrixLumelBytes * lumels + LumelRowsBuilder::host_bytes(lumels, memory.patches);
     }
+    if (const auto* glossy = std::get_if<GlossyOptions>(&options.solver.method))
+        memory.solver = GlossyIllumination::host_bytes(lumels, *glossy);
     if (!uses_links(options))
         return;
     memory.solver = LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels, sizes.lamps);

@@ -45,6 +45,8 @@ public:
 
     /// Upper bound on GPU memory without an eye [bytes], if the device does not limit images.
     static std::uint64_t device_bytes(const SolveSize& size, const GlossyOptions& options);
+    /// Upper bound on host memory of particles [bytes].
+    static std::uint64_t host_bytes(std::size_t lumels, const GlossyOptions& options);
 
     void step() override;
     SolverState state() const override { return state_; }

@@ -18,6 +18,12 @@ namespace {
 
 /// Shooters per particle and lumel.
 constexpr std::size_t kShootersPerPhaseParticle = 2;
+
+std::size_t particles_per_batch(std::size_t lumels, std::uint32_t batch)
+{
+    return std::size_t(batch) * lumels / kShootersPerPhaseParticle;
+}
+
 /// Particles per lumel by which the power that lobes reflect is found.
 constexpr std::size_t kParticlesOfBalance = 1024;
 
@@ -30,6 +36,14 @@ Lumels matte(Lumels lumels)
 }
 
 }  // namespace
+
+std::uint64_t GlossyIllumination::host_bytes(std::size_t lumels, const GlossyOptions& options)
+{
+    if (options.scheme == Scheme::paper)
+        return 0;
+    return LobeParticles::host_bytes(
+        particles_per_batch(lumels, std::uint32_t(options.views.batch)));
+}
 
 StochasticOptions GlossyIllumination::phase_options() const
 {
@@ -49,8 +63,7 @@ void GlossyIllumination::begin_phases(const NearField& near, std::span<const glm
         });
     batch_ = phases_->batch();
     phase_particles_.emplace(*device_, *particles_, std::move(emission), known,
-                             std::size_t(batch_) * count_ / kShootersPerPhaseParticle, batch_,
-                             options_.seed);
+                             particles_per_batch(count_, batch_), batch_, options_.seed);
 }
 
 /// The mean of the frame before is the guess that shooters and particles start from.

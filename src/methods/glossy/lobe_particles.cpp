@@ -56,11 +56,16 @@ double power_of(const Lumel& lumel, const glm::vec3& exitance)
 
 }  // namespace
 
-/// Power that arrives at a lumel, and its part reflected by the lobe.
+/// Power that arrives at a lumel from lobes, and its part reflected by the lobe.
 struct LobeParticles::Landing {
     std::uint32_t lumel;
     glm::vec3 power, reflected;  ///< [lm]
-    bool by_lobes;               ///< false: a first hit, whose light the caller adds
+};
+
+/// Of particles that one task follows.
+struct LobeParticles::Followed {
+    std::vector<Landing> landings;
+    double lobe_power = 0.0;  ///< reflected by lobes, first hits included [lm]
 };
 
 struct LobeParticles::Start {
@@ -159,7 +164,13 @@ bool LobeParticles::arrive(const Start& start, PathHit& arrival) const
     return light.irradiance != glm::vec3(0.0f);
 }
 
-void LobeParticles::follow(const Start& start, std::vector<Landing>& landings) const
+std::uint64_t LobeParticles::host_bytes(std::size_t particles)
+{
+    constexpr std::uint64_t kGrowth = 2;  // capacity of a vector over its size
+    return kGrowth * particles * (sizeof(Start) + sizeof(Landing));
+}
+
+void LobeParticles::follow(const Start& start, Followed& followed) const
 {
     const PathSamples& samples = start.samples;
     PathHit at;
@@ -179,7 +190,9 @@ void LobeParticles::follow(const Start& start, std::vector<Landing>& landings) c
         const glm::vec3 reflected =
             leaves ? at.power * gloss.specular * (cos_out / std::max(cos_in, cos_out))
                    : glm::vec3(0.0f);
-        landings.push_back({at.lumel, at.power, reflected, lobe > 0});
+        followed.lobe_power += luminance(reflected);
+        if (lobe > 0)  // the caller adds the light of first hits
+            followed.landings.push_back({at.lumel, at.power, reflected});
 
         const double chance = luminance(reflected) / start.whole;
         if (!(double(samples.random(pair + 1).x) < chance))
@@ -243,28 +256,27 @@ LobeParticles::Carried LobeParticles::carry(std::span<const glm::vec3> exitance,
     Carried carried{std::vector<glm::vec3>(count, glm::vec3(0.0f)),
                     std::vector<glm::vec3>(count, glm::vec3(0.0f))};
     const std::vector<Start> starts = starts_of(exitance, direct, particles, seed);
-    // Tasks collect landings separately, so that sums do not depend on their order.
+    // Tasks collect separately, so that sums do not depend on their order.
     const std::size_t tasks = (starts.size() + kParticlesPerTask - 1) / kParticlesPerTask;
-    std::vector<std::vector<Landing>> landings(tasks);
+    std::vector<Followed> followed(tasks);
     const auto follow_some = [&](std::size_t task) {
         const std::size_t first = task * kParticlesPerTask;
         const std::size_t last = std::min(first + kParticlesPerTask, starts.size());
         for (std::size_t m = first; m < last; ++m)
-            follow(starts[m], landings[task]);
+            follow(starts[m], followed[task]);
     };
     parallel_for(tasks, 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t task = first; task < last; ++task)
             follow_some(task);
     });
-    for (const std::vector<Landing>& some : landings)
-        for (const Landing& landing : some) {
-            carried.lobe_power += luminance(landing.reflected);
-            if (!landing.by_lobes)
-                continue;
+    for (const Followed& some : followed) {
+        carried.lobe_power += some.lobe_power;
+        for (const Landing& landing : some.landings) {
             const float area = lumels_->lumels[landing.lumel].area;
             carried.irradiance[landing.lumel] += landing.power / area;
             carried.reflected[landing.lumel] += landing.reflected / area;
         }
+    }
     return carried;
 }
 

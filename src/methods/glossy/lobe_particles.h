@@ -38,8 +38,13 @@ public:
     Carried carry(std::span<const glm::vec3> exitance, std::span<const glm::vec3> direct,
                   std::size_t particles, std::uint32_t seed) const;
 
+    /// Upper bound on memory of carry() besides its result [bytes], if most particles leave at most
+    /// one lobe.
+    static std::uint64_t host_bytes(std::size_t particles);
+
 private:
     struct Landing;
+    struct Followed;
     struct Start;
     struct PathHit;
     struct Sought;
@@ -50,7 +55,7 @@ private:
     bool arrive(const Start& start, PathHit& arrival) const;
     bool fly(const glm::vec3& position, const glm::vec3& direction, const glm::vec3& power,
              std::uint32_t bits, PathHit& arrival) const;
-    void follow(const Start& start, std::vector<Landing>& landings) const;
+    void follow(const Start& start, Followed& followed) const;
 
     const RayScene* rays_;
     const Lumels* lumels_;
