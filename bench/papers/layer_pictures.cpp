@@ -104,7 +104,9 @@ Image overdraw(const IlluminationMaps& maps)
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             float* texel = texel_of(picture, x, y);
-            std::fill_n(texel, 3, 1.0f - float(counts[std::size_t(y * side + x)]) / most);
+            std::fill_n(texel, 3,
+                        1.0f - float(counts[std::size_t(y) * std::size_t(side) + std::size_t(x)]) /
+                                   most);
             texel[3] = 1.0f;
         }
     return picture;

@@ -77,7 +77,6 @@ PaperCross::PaperCross(const gpu::Device& device, const Scene& scene, World& wor
       world_(&world),
       lumels_(&lumels),
       solver_(&solver),
-      projection_(projection),
       back_eyes_kernel_(device),
       part_(device),
       resolve_(device),

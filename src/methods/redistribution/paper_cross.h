@@ -63,7 +63,6 @@ private:
     World* world_;
     const Lumels* lumels_;
     ProgressiveRadiosity* solver_;
-    CrossProjection projection_;
     gpu::Kernel<shaders::CrossBackEyes> back_eyes_kernel_;
     gpu::Kernel<shaders::CrossPart> part_;
     gpu::Kernel<shaders::CrossResolve> resolve_;
