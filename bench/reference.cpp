@@ -29,7 +29,7 @@ std::optional<Image> reference_map(const Settings& settings, const SolveScene& w
                                                       {.samples_per_lumel = settings.reference_spp,
                                                        .seed = kSeed + half,
                                                        .rule = rule_of(settings.given.options())}));
-    if (!settings.save_reference.empty())
+    if (!settings.save_reference.empty() && half == 0)
         write_exr(settings.save_reference, map, Precision::float32, {});
     return map;
 }

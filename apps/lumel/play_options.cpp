@@ -46,12 +46,14 @@ void add_follow_options(Command& command, PlayOptions& options)
 {
     command.add(
         kAnimationGroup,
-        {choice(options.redistribution, kRedistributions,
-                {"--redistribution", "",
-                 "With --solver progressive, update after a move: incremental shoots again past "
-                 "the old and the new position and is as exact as a new solution; cross uses only "
-                 "views from the moved objects, which is faster if they are small; paper-... as in "
-                 "[Hoef13], for comparison"}),
+        {choice(
+             options.redistribution, kRedistributions,
+             {"--redistribution", "",
+              "With --solver progressive, update after a move: incremental shoots again past "
+              "the old and the new position and is as exact as a new solution; cross uses only "
+              "views from the moved objects, which is faster if they are small; "
+              "paper-incremental, paper-cross and paper-cross-incremental are those of [Hoef13], "
+              "for comparison"}),
          {"--leak", "F",
           "With --solver directions, the share of the running mean that each direction replaces; "
           "higher values follow changes faster but are noisier",

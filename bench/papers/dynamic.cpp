@@ -101,19 +101,16 @@ MoveOutcome from_scratch(const gpu::Device& device, const Stage& stage, const gl
     return outcome;
 }
 
-double processor_ms(const MoveOutcome& outcome)
-{
-    return outcome.update.whole_cpu_ms;
-}
-
 /// Of the moves or solutions after the first, in which the driver compiles shaders: the one whose
-/// time is the median.
-MoveOutcome median(std::vector<MoveOutcome> outcomes)
+/// time, as it is compared, is the median.
+MoveOutcome median(const gpu::Device& device, std::vector<MoveOutcome> outcomes)
 {
+    const auto ms = counts_processor_time(device) ? &Update::whole_cpu_ms : &Update::whole_ms;
     if (outcomes.size() > 1)
         outcomes.erase(outcomes.begin());
     const auto middle = outcomes.begin() + std::ptrdiff_t(outcomes.size() / 2);
-    std::ranges::nth_element(outcomes, middle, {}, processor_ms);
+    std::ranges::nth_element(outcomes, middle, {},
+                             [&](const MoveOutcome& outcome) { return outcome.update.*ms; });
     return std::move(*middle);
 }
 
@@ -128,7 +125,7 @@ MoveOutcome corrected(const gpu::Device& device, const Stage& stage, Redistribut
     for (const glm::mat4& place : stage.places)
         outcomes.push_back({.update = update_after_move(live, stage.box, place)});
     const std::vector<glm::vec3> alone = outcomes.back().update.alone;
-    MoveOutcome outcome = median(std::move(outcomes));
+    MoveOutcome outcome = median(device, std::move(outcomes));
     outcome.alone = alone;
     outcome.irradiance = live.irradiance();
     return outcome;
@@ -140,7 +137,7 @@ MoveOutcome from_scratch(const gpu::Device& device, const Stage& stage)
     std::vector<MoveOutcome> outcomes;
     for (std::size_t i = 0; i < stage.places.size(); ++i)
         outcomes.push_back(from_scratch(device, stage, stage.places.back()));
-    return median(std::move(outcomes));
+    return median(device, std::move(outcomes));
 }
 
 /// The light of the place before the last, and no time at all.

@@ -64,19 +64,25 @@ std::vector<std::vector<glm::vec3>> light_patches(const SolveScene& world,
 
 }  // namespace
 
-MatrixCase make_matrix_case(const gpu::Device& device, const Settings& settings,
-                            std::uint32_t patches, int lights)
+Transport transport_of(const gpu::Device& device, const SolveScene& world,
+                       const MatrixOptions& options)
 {
-    auto options = options_of<MatrixOptions>(settings);
-    options.transport.patches = patches;
-    const SolveScene world = prepare(settings, settings.size);
     const NearField near =
         near_field_for(world.scene, world.rays, world.lumels, {.method = options});
     const World resident(device, world.scene, world.lumels);
     TransportBuilder builder(device, resident, world.lumels, near, options.transport);
     while (!builder.done())
         builder.step();
-    Transport transport = builder.finish();
+    return builder.finish();
+}
+
+MatrixCase make_matrix_case(const gpu::Device& device, const Settings& settings,
+                            std::uint32_t patches, int lights)
+{
+    auto options = options_of<MatrixOptions>(settings);
+    options.transport.patches = patches;
+    const SolveScene world = prepare(settings, settings.size);
+    Transport transport = transport_of(device, world, options);
     return {.elements = elements_of(transport.patches),
             .form_factors = std::move(transport.form_factors),
             .bounces = std::move(transport.bounces),

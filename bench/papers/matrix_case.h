@@ -4,6 +4,7 @@
 #include "bench/papers/figures.h"
 #include "solve/matrix/bounces.h"
 #include "solve/matrix/elements.h"
+#include "solve/transport/transport.h"
 
 namespace lumel::bench {
 
@@ -15,6 +16,10 @@ struct MatrixCase {
 
     std::uint32_t size() const { return form_factors.size; }
 };
+
+/// Form factors and reflections between the scene's patches.
+Transport transport_of(const gpu::Device& device, const SolveScene& world,
+                       const MatrixOptions& options);
 
 /// At most `patches` of the scene; lit by a number of point lights, one in each state, at places
 /// drawn from its box, of which those count that light a quarter of its lumels or more. Throws

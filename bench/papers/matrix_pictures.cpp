@@ -95,18 +95,6 @@ Solved solve_by(const gpu::Device& device, const SolveScene& world, const Solver
     return {std::move(map), watch.cpu};
 }
 
-Transport transport_of(const gpu::Device& device, const SolveScene& world,
-                       const MatrixOptions& options)
-{
-    const NearField near =
-        near_field_for(world.scene, world.rays, world.lumels, {.method = options});
-    const World resident(device, world.scene, world.lumels);
-    TransportBuilder builder(device, resident, world.lumels, near, options.transport);
-    while (!builder.done())
-        builder.step();
-    return builder.finish();
-}
-
 std::vector<glm::vec3> direct_of(const SolveScene& world)
 {
     DirectRays direct(world, 1, kMatrixError, {});

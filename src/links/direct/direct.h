@@ -23,7 +23,7 @@ namespace lumel {
 class DirectEstimator {
 public:
     /// The work must outlive this. parts: sub-lumels, across which no light passes, or null. lamps:
-    /// whose light the same rays also record separately, or null.
+    /// if not null, light is also stored per lamp, by the same shadow rays.
     DirectEstimator(const LinkWork& work, std::uint32_t seed, const SubLumels* parts = nullptr,
                     const LampTable* lamps = nullptr);
 

@@ -22,8 +22,8 @@ constexpr double kShareBytes = 0.4 * double(sizeof(NearShare));
 constexpr double kGuideBytes = sizeof(std::uint32_t) + sizeof(RayGuide::Table) / 32.0;
 /// Fraction of lumels with direct light per cell: maximum seen.
 constexpr double kVarying = 0.1;
-/// The same of lamps kept apart: half of the lumels, twice while a pass replaces them, as seen with
-/// sixteen lamps.
+/// Fraction of lumels with direct light per lamp and cell, maximum seen with sixteen lamps; both
+/// the old and the new light are in memory while a pass replaces it.
 constexpr double kVaryingByLamp = 2 * 0.5;
 constexpr double kShareOfFree = 0.5;
 

@@ -112,7 +112,7 @@ bool is_own_other_side(uint surface, Lumel receiver)
     return side != own && j != kNoLumel && lumels[j].instance == receiver.instance;
 }
 
-// What a lookup found: the sample's plane, at the centre of its pixel and on the point's own ray.
+// Result of a lookup: a sample's nearness and that of its plane on the point's own ray.
 struct Lookup {
     uint surface;   // 0: nothing
     float there;    // nearness of the sample

@@ -9,7 +9,7 @@
 
 namespace lumel {
 
-/// Which samples of Layers::stochastic occlude a lumel, see directions.gather.comp.
+/// Occlusion test for samples of Layers::stochastic, see directions.gather.comp.
 enum class LookupTest : std::uint32_t {
     planes,  ///< by the planes of both
     paper,   ///< by the lumel's own, as [TN11] Figure 5

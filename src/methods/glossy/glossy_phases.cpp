@@ -3,10 +3,10 @@
 //     H = (T + P)(E + ρ_d H),
 //
 // T: shooters and near pairs (stochastic.cpp), P: lobes (phase_particles.cpp). All batches count:
-// the energy balance sets the level of the light, and no iteration starts from the noise of the one
-// before, as the last value of [BSS05] does. A frame of a moved scene starts its phases from the
-// mean of the one before. The first frame of an eye or of other emission leaves the phases and
-// continues from their mean (glossy_frames.cpp).
+// the energy balance sets the level of the light. Unlike [BSS05], whose T* acts on the last value,
+// no iteration starts from the noise of the one before. A frame of a moved scene starts its phases
+// from the mean of the one before. The first frame of an eye or of other emission leaves the phases
+// and continues from their mean (glossy_frames.cpp).
 
 #include <algorithm>
 
@@ -139,13 +139,14 @@ EnergyBalance GlossyIllumination::energy()
     for (std::size_t i = 0; i < arriving.size(); ++i)
         absorbed += double(lumels_->lumels[i].area) *
                     luminance(arriving[i] * (1.0f - lumels_->gloss[i].diffuse));
-    // In phases the particles of E are those of the solution; without, they start here.
-    std::vector<glm::vec3> exitance = mean_exitance();
-    if (phases_) {
+    // In phases, lobes' power from E is that of the solution's particles; else it is traced here.
+    std::vector<glm::vec3> exitance(count_, glm::vec3(0.0f));
+    if (phases_)
         absorbed -= phase_particles_->emission_lobe_power();
-        for (std::size_t i = 0; i < exitance.size(); ++i)
-            exitance[i] = lumels_->gloss[i].diffuse * arriving[i];
-    }
+    else
+        exitance = emission_.download();
+    for (std::size_t i = 0; i < exitance.size(); ++i)
+        exitance[i] += lumels_->gloss[i].diffuse * arriving[i];
     const std::size_t particles = kParticlesOfBalance * count_;
     absorbed -= particles_->carry(exitance, {}, particles, options_.seed).lobe_power;
     return {emitted_power_, absorbed};

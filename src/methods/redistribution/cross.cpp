@@ -42,14 +42,6 @@ namespace {
 /// 2^kBackLevels, so that faces stay separate in all levels.
 constexpr std::uint32_t kBackSide = 32;
 
-std::uint32_t pixels_of_levels(std::uint32_t side)
-{
-    std::uint32_t sum = 0;
-    for (std::uint32_t level = 0; level < kBackLevels; ++level)
-        sum += 3 * (side >> level) * (side >> level);
-    return sum;
-}
-
 /// Rows of static lumels, with columns of movable ones.
 NearField rows_of_still(const NearField& near, const Lumels& lumels)
 {
@@ -71,22 +63,6 @@ NearField rows_of_still(const NearField& near, const Lumels& lumels)
 
 }  // namespace
 
-std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lumels,
-                                        const std::vector<char>& open)
-{
-    std::vector<ChosenPatch> list;
-    for (const std::uint32_t send : {kSendCrossing, kSendBackSide})
-        for (std::uint32_t c = 0; c < layout.charts.size(); ++c) {
-            const PatchChart& chart = layout.charts[c];
-            const bool is_open = open[lumels.lumels[chart.first_lumel].instance] != 0;
-            if (!chart.moving || (send == kSendBackSide && !is_open))
-                continue;
-            for (std::uint32_t index = 0; index < patches_of(chart, 0); ++index)
-                list.push_back({c, 0, index, send});
-        }
-    return list;
-}
-
 CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world,
                                          const Lumels& lumels, ProgressiveRadiosity& solver,
                                          const std::vector<char>& movers,
@@ -95,22 +71,13 @@ CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world
       world_(&world),
       lumels_(&lumels),
       solver_(&solver),
-      back_eyes_kernel_(device),
       part_(device),
-      resolve_(device),
       gather_(device, std::uint32_t(solver.shots().views().projection())),
       send_(device),
       receive_(device, std::uint32_t(solver.shots().views().projection())),
       settle_(device),
       lamps_(device, world, lumels, solver, movers, most_bytes),
-      back_views_(device, world, kBackSide, solver.shots().views().layout().near,
-                  solver.shots().batch()),
-      batch_(solver.shots().batch()),
-      back_layout_{kBackSide, pixels_of_levels(kBackSide)},
-      patches_(moving_patches(solver.shots().layout(), lumels, open)),
-      list_(device, view(in_whole_batches(patches_, batch_))),
-      back_eyes_(device, batch_),
-      back_(device, std::size_t(batch_) * back_layout_.per_hemicube),
+      sides_(device, world, lumels, solver, open, kBackSide, kBackLevels),
       lumel_of_(device, view(lumels_by_side(lumels))),
       near_first_(device, lumels.lumels.size() + 1),
       near_column_(device, 1),
@@ -162,14 +129,16 @@ bool CrossRedistribution::step()
             begin_crossing();
         return true;
     }
-    look_from_fronts();
+    sides_.look_from_fronts(next_);
     gather();
-    look_from_backs();
-    resolve_backs();
+    sides_.look_from_backs({.lumel_of = &lumel_of_,
+                            .radiosity = &crossed_,
+                            .width = std::uint32_t(lumels_->width),
+                            .height = std::uint32_t(lumels_->height)});
     receive();
-    hemicubes_ += 2 * std::min<std::uint64_t>(batch_, patches_.size() - next_);
-    next_ += batch_;
-    under_way_ = next_ < list_.size();
+    hemicubes_ += 2 * std::min<std::uint64_t>(sides_.batch(), sides_.size() - next_);
+    next_ += sides_.batch();
+    under_way_ = next_ < sides_.listed();
     if (!under_way_) {
         const CountParams params{std::uint32_t(lumels_->lumels.size())};
         solver_->pacer().dispatch("settle", settle_,
@@ -182,19 +151,6 @@ bool CrossRedistribution::step()
     return under_way_;
 }
 
-void CrossRedistribution::look_from_fronts()
-{
-    PatchShots& shots = solver_->shots();
-    gpu::Pacer& pacer = solver_->pacer();
-    pacer.work("take", [&](gpu::Commands& commands) {
-        shots.take(commands, solver_->light(), list_, next_);
-        commands.dispatch(back_eyes_kernel_, {.eyes = shots.eyes(), .back_eyes = back_eyes_},
-                          TakeParams{batch_}, batch_);
-    });
-    world_->show_movers(true);
-    shots.look(pacer);
-}
-
 void CrossRedistribution::gather()
 {
     const PatchShots& shots = solver_->shots();
@@ -202,7 +158,7 @@ void CrossRedistribution::gather()
     const ShotLight& light = solver_->light();
     const CrossGatherParams params{.views = views.layout(),
                                    .count = std::uint32_t(lumels_->lumels.size()),
-                                   .batch = batch_,
+                                   .batch = sides_.batch(),
                                    .near_radius = solver_->near_radius()};
     solver_->pacer().work("gather", [&](gpu::Commands& commands) {
         commands.dispatch(gather_,
@@ -213,7 +169,7 @@ void CrossRedistribution::gather()
                            .crossed = crossed_,
                            .fresh = fresh_,
                            .far = light.far},
-                          params, std::size_t(batch_) * kPatchGroup);
+                          params, std::size_t(sides_.batch()) * kPatchGroup);
         commands.dispatch(send_,
                           {.shots = shots.shots(),
                            .surface = light.surface,
@@ -222,35 +178,7 @@ void CrossRedistribution::gather()
                            .near = light.near,
                            .shot = light.shot,
                            .crossed = crossed_},
-                          TakeParams{batch_}, batch_);
-    });
-}
-
-void CrossRedistribution::look_from_backs()
-{
-    world_->show_movers(false);
-    back_views_.look_from(solver_->pacer(), back_eyes_,
-                          {.lumel_of = &lumel_of_,
-                           .radiosity = &crossed_,
-                           .width = std::uint32_t(lumels_->width),
-                           .height = std::uint32_t(lumels_->height)},
-                          batch_);
-}
-
-void CrossRedistribution::resolve_backs()
-{
-    solver_->pacer().work("resolve", [&](gpu::Commands& commands) {
-        for (std::uint32_t level = 0; level < kBackLevels; ++level) {
-            const std::uint32_t side = kBackSide >> level;
-            commands.dispatch(
-                resolve_, {.views = {back_views_.image(), back_views_.sampler()}, .back = back_},
-                ResolveParams{.views = back_views_.layout(),
-                              .back = back_layout_,
-                              .level = level,
-                              .batch = batch_,
-                              .samples = gpu::kManySamples},
-                std::size_t(batch_) * 3 * side * side);
-        }
+                          TakeParams{sides_.batch()}, sides_.batch());
     });
 }
 
@@ -269,11 +197,11 @@ void CrossRedistribution::receive()
                                      .eyes = shots.eyes(),
                                      .shots = shots.shots(),
                                      .shot = solver_->light().shot,
-                                     .back = back_,
+                                     .back = sides_.back(),
                                      .fresh = fresh_},
                                     {.views = views.layout(),
-                                     .back = back_layout_,
-                                     .shots = batch_,
+                                     .back = sides_.back_layout(),
+                                     .shots = sides_.batch(),
                                      .near_radius = solver_->near_radius()});
 }
 

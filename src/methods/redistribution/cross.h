@@ -3,22 +3,16 @@
 // the cost of hemicubes on these alone. See cross.cpp.
 
 #include "methods/progressive/progressive.h"
-#include "methods/redistribution/cross.back_eyes.comp.h"
 #include "methods/redistribution/cross.gather.comp.h"
 #include "methods/redistribution/cross.part.comp.h"
 #include "methods/redistribution/cross.receive.comp.h"
-#include "methods/redistribution/cross.resolve.comp.h"
 #include "methods/redistribution/cross.send.comp.h"
 #include "methods/redistribution/cross.settle.comp.h"
 #include "methods/redistribution/cross.shared.h"
 #include "methods/redistribution/lamp_shadows.h"
-#include "raster/eyes/lit_views.h"
+#include "methods/redistribution/patch_sides.h"
 
 namespace lumel {
-
-/// Fronts of all movable patches, and backs of those of open meshes. open [instances].
-std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lumels,
-                                        const std::vector<char>& open);
 
 /// Redistributes light shot among static lumels, batch by batch.
 class CrossRedistribution {
@@ -45,9 +39,6 @@ public:
 
 private:
     void begin_crossing();
-    void look_from_fronts();
-    void look_from_backs();
-    void resolve_backs();
     void gather();
     void receive();
 
@@ -55,21 +46,13 @@ private:
     World* world_;
     const Lumels* lumels_;
     ProgressiveRadiosity* solver_;
-    gpu::Kernel<shaders::CrossBackEyes> back_eyes_kernel_;
     gpu::Kernel<shaders::CrossPart> part_;
-    gpu::Kernel<shaders::CrossResolve> resolve_;
     gpu::Kernel<shaders::CrossGather> gather_;
     gpu::Kernel<shaders::CrossSend> send_;
     gpu::Kernel<shaders::CrossReceive> receive_;
     gpu::Kernel<shaders::CrossSettle> settle_;
     LampShadows lamps_;
-    LitViews back_views_;
-    std::uint32_t batch_;  ///< K
-    BackLayout back_layout_;
-    std::vector<ChosenPatch> patches_;                    ///< M: all movable ones
-    gpu::Array<ChosenPatch> list_;                        ///< patches_ in whole batches
-    gpu::Array<Eye> back_eyes_;                           ///< [K]
-    gpu::Array<BackPixel> back_;                          ///< [K][pixels of all levels]
+    PatchSides sides_;
     gpu::Array<std::uint32_t> lumel_of_;                  ///< [texels][2]
     gpu::Array<std::uint32_t> near_first_, near_column_;  ///< static rows, movable columns
     gpu::Array<float> near_factor_;

@@ -121,9 +121,7 @@ IncrementalRedistribution::IncrementalRedistribution(const gpu::Device& device, 
       rows_(&rows),
       pairs_(device, solver, world.placements().size()),
       reset_(device),
-      before_list_(rows.list_of({})),
-      back_list_(rows.list_of({})),
-      after_list_(rows.list_of({}))
+      phases_(rows)
 {
 }
 
@@ -138,10 +136,11 @@ bool IncrementalRedistribution::begin(Move move)
     Patches3 patches = patches_to_shoot();
     pairs_.moved.upload(move_.moved);
     pairs_.boxes = gpu::Array<MovedBox>(*device_, view(move_.boxes));
-    before_list_ = rows_->list_of(std::move(patches.unknown));
-    back_list_ = rows_->list_of(std::move(patches.moving));
-    after_list_ = rows_->list_of(std::move(patches.all));
-    go_to(Phase::before);
+    phases_.begin(rows_->list_of(std::move(patches.unknown)),
+                  rows_->list_of(std::move(patches.moving)),
+                  rows_->list_of(std::move(patches.all)));
+    if (phases_.phase() == ShotPhases::Phase::after)
+        go_after();
     return is_under_way();
 }
 
@@ -176,32 +175,16 @@ IncrementalRedistribution::Patches3 IncrementalRedistribution::patches_to_shoot(
     return found;
 }
 
-const ShotList& IncrementalRedistribution::list() const
+/// Moves the world; what moved has no light then.
+void IncrementalRedistribution::go_after()
 {
-    return phase_ == Phase::before ? before_list_
-           : phase_ == Phase::back ? back_list_
-                                   : after_list_;
-}
-
-/// Starts a phase, or the next one that has work.
-void IncrementalRedistribution::go_to(Phase phase)
-{
-    phase_ = phase;
-    next_ = 0;
-    if (phase == Phase::before && before_list_.empty())
-        return go_to(Phase::back);
-    if (phase == Phase::back && back_list_.empty())
-        return go_to(Phase::after);
-    if (phase != Phase::after)
-        return;
     gpu::Pacer& pacer = solver_->pacer();
     pacer.dispatch("redistribute", reset_,
                    {.lumels = world_->lumels(), .moved = pairs_.moved, .far = solver_->light().far},
                    CountParams{std::uint32_t(world_->lumels().size())}, world_->lumels().size());
     pacer.finish();
     world_->place(move_.transforms);
-    if (after_list_.empty())
-        phase_ = Phase::none;
+    phases_.end_if_empty();
 }
 
 void IncrementalRedistribution::look()
@@ -216,38 +199,33 @@ bool IncrementalRedistribution::step()
         return false;
     PatchShots& shots = solver_->shots();
     solver_->pacer().work("redistribute", [&](gpu::Commands& commands) {
-        shots.take(commands, solver_->light(), list().chosen, next_);
+        shots.take(commands, solver_->light(), phases_.list().chosen, phases_.next());
     });
-    if (phase_ == Phase::before) {
+    if (phases_.phase() == ShotPhases::Phase::before) {
         look();
-        rows_->record(list(), next_);
+        rows_->record(phases_.list(), phases_.next());
         receive(-1.0f);
-    } else if (phase_ == Phase::back) {
-        rows_->shoot(list(), next_, -1.0f);
+    } else if (phases_.phase() == ShotPhases::Phase::back) {
+        rows_->shoot(phases_.list(), phases_.next(), -1.0f);
     } else {
         look();
         receive(1.0f);
     }
-    next_ += shots.batch();
-    if (next_ < list().patches.size())
-        return true;
-    go_to(phase_ == Phase::before ? Phase::back
-          : phase_ == Phase::back ? Phase::after
-                                  : Phase::none);
+    if (phases_.pass(shots.batch()))
+        go_after();
     return is_under_way();
 }
 
 void IncrementalRedistribution::receive(float sign)
 {
-    const std::vector<ChosenPatch>& patches = list().patches;
     const PatchShots& shots = solver_->shots();
-    const auto first_place = patches.begin() + next_;
+    const auto first_place = phases_.list().patches.begin() + phases_.next();
     if (sign < 0.0f && std::none_of(first_place, first_place + shots.batch(), [&](auto& patch) {
             return patch.chart != kNoPatch && rows_->row_of(patch) == kNoRow;
         }))
         return;
-    pairs_.receive("redistribute to lumels", *world_, *solver_, list(), next_, sign, *rows_, true,
-                   solver_->light().far);
+    pairs_.receive("redistribute to lumels", *world_, *solver_, phases_.list(), phases_.next(),
+                   sign, *rows_, true, solver_->light().far);
 }
 
 }  // namespace lumel

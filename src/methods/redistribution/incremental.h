@@ -9,6 +9,7 @@
 #include "methods/redistribution/incremental.receive.comp.h"
 #include "methods/redistribution/incremental.reset.comp.h"
 #include "methods/redistribution/incremental.shared.h"
+#include "methods/redistribution/shot_phases.h"
 
 namespace lumel {
 
@@ -17,6 +18,12 @@ struct Move {
     std::vector<glm::mat4> transforms;  ///< [instances] transforms after the move
     std::vector<MovedBox> boxes;        ///< bounds of moved instances, before and after
 };
+
+/// Flags of instances as the device reads them.
+inline std::vector<std::uint32_t> words_of(const std::vector<char>& flags)
+{
+    return {flags.begin(), flags.end()};
+}
 
 /// Angle [rad] by which an edge can seem to protrude in the views.
 float edge_slack(const EyeViewLayout& views);
@@ -58,24 +65,16 @@ public:
     /// Runs one batch. Returns false when finished: the world is then as after the move, and the
     /// solver can continue once the caller has set the near field: set_near_field().
     bool step();
-    bool is_under_way() const { return phase_ != Phase::none; }
+    bool is_under_way() const { return phases_.is_under_way(); }
     std::uint64_t hemicubes() const { return hemicubes_; }  ///< total over all moves
 
 private:
-    /// Phases, each over a list of patches, in this order.
-    enum class Phase {
-        none,
-        before,  ///< patches of unknown visibility see the world before the move
-        back,    ///< moving patches take their light back
-        after,   ///< all see the world after the move, and redistribute
-    };
     struct Patches3 {
         std::vector<ChosenPatch> unknown, moving, all;
     };
 
     Patches3 patches_to_shoot();
-    void go_to(Phase phase);
-    const ShotList& list() const;
+    void go_after();
     void look();
     void receive(float sign);
 
@@ -86,11 +85,9 @@ private:
     VisibilityRows* rows_;
     PairRedistribution pairs_;
     gpu::Kernel<shaders::IncrementalReset> reset_;
-    ShotList before_list_, back_list_, after_list_;
+    ShotPhases phases_;
     Move move_;
     std::vector<glm::mat4> before_;  ///< [instances] transforms before the move
-    std::uint32_t next_ = 0;         ///< next entry of the list
-    Phase phase_ = Phase::none;
     std::uint64_t hemicubes_ = 0;
 };
 

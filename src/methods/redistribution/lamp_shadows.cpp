@@ -58,11 +58,6 @@ std::vector<std::uint32_t> lumels_of_lamps(const Patches& layout, const Lumels& 
     return flags;
 }
 
-std::vector<std::uint32_t> words_of(const std::vector<char>& flags)
-{
-    return {flags.begin(), flags.end()};
-}
-
 /// Relative change of the lamps' light.
 double change(const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& now,
               const std::vector<std::uint32_t>& is_lamp)

@@ -219,34 +219,24 @@ bool LiveScene::is_under_way() const
     return lamps_.is_under_way() || is_redistributing();
 }
 
+/// Calls `call` with the redistribution that there is.
+template <class Scene, class Call>
+auto LiveScene::of_redistribution(Scene& scene, const Call& call)
+{
+    return scene.cross_               ? call(*scene.cross_)
+           : scene.paper_cross_       ? call(*scene.paper_cross_)
+           : scene.paper_incremental_ ? call(*scene.paper_incremental_)
+                                      : call(*scene.incremental_);
+}
+
 bool LiveScene::is_redistributing() const
 {
-    return cross_               ? cross_->is_under_way()
-           : paper_cross_       ? paper_cross_->is_under_way()
-           : paper_incremental_ ? paper_incremental_->is_under_way()
-                                : incremental_->is_under_way();
+    return of_redistribution(*this, [](const auto& now) { return now.is_under_way(); });
 }
 
 bool LiveScene::begin_incremental()
 {
     return paper_incremental_ ? paper_incremental_->begin(move_) : incremental_->begin(move_);
-}
-
-/// Runs one batch of the redistribution. Returns false when finished.
-bool LiveScene::continue_redistribution()
-{
-    return cross_               ? cross_->step()
-           : paper_cross_       ? paper_cross_->step()
-           : paper_incremental_ ? paper_incremental_->step()
-                                : incremental_->step();
-}
-
-std::uint64_t LiveScene::redistribution_hemicubes() const
-{
-    return cross_               ? cross_->hemicubes()
-           : paper_cross_       ? paper_cross_->hemicubes()
-           : paper_incremental_ ? paper_incremental_->hemicubes()
-                                : incremental_->hemicubes();
 }
 
 bool LiveScene::is_at_rest() const
@@ -348,7 +338,7 @@ void LiveScene::work()
             settle_move();
         }
     } else if (is_redistributing()) {
-        if (!continue_redistribution())
+        if (!of_redistribution(*this, [](auto& now) { return now.step(); }))
             end_move();
     } else if (edits_.is_move_requested() || (crosses(options_.redistribution) && !is_crossed() &&
                                               state_.residual <= options_.residual)) {
@@ -395,7 +385,8 @@ LiveState LiveScene::update(double budget_ms)
     }
     state_.under_way = is_under_way();
     state_.at_rest = is_at_rest();
-    state_.hemicubes = solver_.state().shots + remaining_.hemicubes() + redistribution_hemicubes();
+    state_.hemicubes = solver_.state().shots + remaining_.hemicubes() +
+                       of_redistribution(*this, [](const auto& now) { return now.hemicubes(); });
     state_.milliseconds = ms_since(start);
     return state_;
 }

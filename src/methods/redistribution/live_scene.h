@@ -115,8 +115,8 @@ private:
     bool is_at_rest() const;
     bool is_crossed() const;
     bool begin_incremental();
-    bool continue_redistribution();
-    std::uint64_t redistribution_hemicubes() const;
+    template <class Scene, class Call>
+    static auto of_redistribution(Scene& scene, const Call& call);
 
     const gpu::Device* device_;
     LiveOptions options_;

@@ -43,7 +43,6 @@
 #include <algorithm>
 
 #include "methods/gather/hemicube_light.h"
-#include "methods/redistribution/cross.h"
 #include "solve/shooting/lumel_arrays.h"
 
 namespace lumel {
@@ -51,13 +50,6 @@ namespace {
 
 /// Sides of the front faces of the thesis' hemicubes [pixels], section 5.3.1.
 constexpr std::uint32_t kPaperFrontSide = 64, kPaperBackSide = 16;
-/// Pixels of a hemicube, in units of the front face.
-constexpr std::uint32_t kHemicubeArea = 3;
-
-std::vector<std::uint32_t> words_of_movers(const std::vector<char>& movers)
-{
-    return {movers.begin(), movers.end()};
-}
 
 std::vector<std::uint32_t> movable(const Lumels& lumels)
 {
@@ -77,24 +69,17 @@ PaperCross::PaperCross(const gpu::Device& device, const Scene& scene, World& wor
       world_(&world),
       lumels_(&lumels),
       solver_(&solver),
-      back_eyes_kernel_(device),
       part_(device),
-      resolve_(device),
       reset_(device),
       gather_(device),
       receive_(device, std::uint32_t(solver.shots().views().projection())),
-      batch_(solver.shots().batch()),
-      front_views_(device, world, kPaperFrontSide, solver.shots().views().layout().near, batch_),
-      back_views_(device, world, kPaperBackSide, solver.shots().views().layout().near, batch_),
-      back_layout_{kPaperBackSide, kHemicubeArea * kPaperBackSide * kPaperBackSide},
-      patches_(moving_patches(solver.shots().layout(), lumels, open)),
-      list_(device, view(in_whole_batches(patches_, batch_))),
-      back_eyes_(device, batch_),
-      back_(device, std::size_t(batch_) * back_layout_.per_hemicube),
+      sides_(device, world, lumels, solver, open, kPaperBackSide, 1),
+      front_views_(device, world, kPaperFrontSide, solver.shots().views().layout().near,
+                   solver.shots().batch()),
       lumel_of_(device, view(nearest_lumels_by_side(lumels))),
       delta_form_factors_(device,
                           view(delta_form_factors(kPaperFrontSide, device.has_standard_samples()))),
-      is_mover_(device, view(words_of_movers(movers))),
+      is_mover_(device, view(words_of(movers))),
       of_mover_(device, view(movable(lumels))),
       crossed_(device, lumels.lumels.size()),
       triangles_(device, 1)
@@ -170,15 +155,15 @@ bool PaperCross::step()
 {
     if (!is_under_way())
         return false;
-    look_from_fronts();
+    sides_.look_from_fronts(next_);
     if (phase_ == Phase::in)
         gather();
-    look_from_backs();
+    sides_.look_from_backs(light_of_still());
     receive();
-    const std::uint64_t patches = std::min<std::uint64_t>(batch_, patches_.size() - next_);
+    const std::uint64_t patches = std::min<std::uint64_t>(sides_.batch(), sides_.size() - next_);
     hemicubes_ += (phase_ == Phase::in ? 3 : 2) * patches;
-    next_ += batch_;
-    if (next_ < list_.size())
+    next_ += sides_.batch();
+    if (next_ < sides_.listed())
         return true;
     if (phase_ == Phase::out)
         put_in();
@@ -195,24 +180,11 @@ SurfaceLight PaperCross::light_of_still() const
             .height = std::uint32_t(lumels_->height)};
 }
 
-void PaperCross::look_from_fronts()
-{
-    PatchShots& shots = solver_->shots();
-    gpu::Pacer& pacer = solver_->pacer();
-    pacer.work("take", [&](gpu::Commands& commands) {
-        shots.take(commands, solver_->light(), list_, next_);
-        commands.dispatch(back_eyes_kernel_, {.eyes = shots.eyes(), .back_eyes = back_eyes_},
-                          TakeParams{batch_}, batch_);
-    });
-    world_->show_movers(true);
-    shots.look(pacer);
-}
-
 void PaperCross::gather()
 {
     const PatchShots& shots = solver_->shots();
     const ShotLight& light = solver_->light();
-    front_views_.look_from(solver_->pacer(), shots.eyes(), light_of_still(), batch_);
+    front_views_.look_from(solver_->pacer(), shots.eyes(), light_of_still(), sides_.batch());
     solver_->pacer().dispatch(
         "gather", gather_,
         {.views = {front_views_.image(), front_views_.sampler()},
@@ -223,21 +195,7 @@ void PaperCross::gather()
          .far = light.far,
          .shot = light.shot},
         PaperGatherParams{.views = front_views_.layout(), .samples = gpu::kManySamples},
-        std::size_t(batch_) * kPaperGatherGroup);
-}
-
-void PaperCross::look_from_backs()
-{
-    world_->show_movers(false);
-    back_views_.look_from(solver_->pacer(), back_eyes_, light_of_still(), batch_);
-    solver_->pacer().dispatch(
-        "resolve", resolve_, {.views = {back_views_.image(), back_views_.sampler()}, .back = back_},
-        ResolveParams{.views = back_views_.layout(),
-                      .back = back_layout_,
-                      .level = 0,
-                      .batch = batch_,
-                      .samples = gpu::kManySamples},
-        std::size_t(batch_) * back_layout_.per_hemicube);
+        std::size_t(sides_.batch()) * kPaperGatherGroup);
 }
 
 void PaperCross::receive()
@@ -251,12 +209,12 @@ void PaperCross::receive()
                                      .eyes = shots.eyes(),
                                      .shots = shots.shots(),
                                      .shot = solver_->light().shot,
-                                     .back = back_,
+                                     .back = sides_.back(),
                                      .triangles = triangles_,
                                      .far = solver_->light().far},
                                     {.views = views.layout(),
-                                     .back = back_layout_,
-                                     .shots = batch_,
+                                     .back = sides_.back_layout(),
+                                     .shots = sides_.batch(),
                                      .sign_factor = phase_ == Phase::in ? 1.0f : -1.0f,
                                      .triangles = culls_ ? std::uint32_t(triangles_.size()) : 0u});
 }

@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "methods/progressive/progressive.h"
-#include "methods/redistribution/cross.back_eyes.comp.h"
 #include "methods/redistribution/cross.part.comp.h"
-#include "methods/redistribution/cross.resolve.comp.h"
 #include "methods/redistribution/incremental.reset.comp.h"
 #include "methods/redistribution/paper_cross.gather.comp.h"
 #include "methods/redistribution/paper_cross.receive.comp.h"
 #include "methods/redistribution/paper_cross.shared.h"
+#include "methods/redistribution/patch_sides.h"
 #include "raster/eyes/lit_views.h"
 
 namespace lumel {
@@ -52,9 +51,7 @@ private:
     };
 
     void put_in();
-    void look_from_fronts();
     void gather();
-    void look_from_backs();
     void receive();
     gpu::Array<MoverTriangle> triangles_at(std::span<const glm::mat4> transforms) const;
     SurfaceLight light_of_still() const;
@@ -63,19 +60,12 @@ private:
     World* world_;
     const Lumels* lumels_;
     ProgressiveRadiosity* solver_;
-    gpu::Kernel<shaders::CrossBackEyes> back_eyes_kernel_;
     gpu::Kernel<shaders::CrossPart> part_;
-    gpu::Kernel<shaders::CrossResolve> resolve_;
     gpu::Kernel<shaders::IncrementalReset> reset_;
     gpu::Kernel<shaders::PaperCrossGather> gather_;
     gpu::Kernel<shaders::PaperCrossReceive> receive_;
-    std::uint32_t batch_;  ///< K
-    LitViews front_views_, back_views_;
-    BackLayout back_layout_;
-    std::vector<ChosenPatch> patches_;    ///< M
-    gpu::Array<ChosenPatch> list_;        ///< patches_ in whole batches
-    gpu::Array<Eye> back_eyes_;           ///< [K]
-    gpu::Array<BackPixel> back_;          ///< [K][pixels]
+    PatchSides sides_;
+    LitViews front_views_;
     gpu::Array<std::uint32_t> lumel_of_;  ///< [texels][2]
     gpu::Array<float> delta_form_factors_;
     gpu::Array<std::uint32_t> is_mover_;  ///< [instances]

@@ -63,10 +63,8 @@ PaperIncremental::PaperIncremental(const gpu::Device& device, World& world, cons
       receive_(device, std::uint32_t(solver.shots().views().projection())),
       moved_(device, world.placements().size()),
       shot_before_(device, solver.shots().batch()),
-      before_list_(rows.list_of({})),
-      back_list_(rows.list_of({})),
-      after_list_(rows.list_of({})),
-      after_shot_(device, view(after_list_.patches))
+      phases_(rows),
+      after_shot_(device, 0)
 {
 }
 
@@ -75,12 +73,13 @@ bool PaperIncremental::begin(Move move)
     solver_->pacer().finish();
     move_ = std::move(move);
     moved_.upload(move_.moved);
-    make_lists();
-    go_to(Phase::before);
+    begin_phases();
+    if (phases_.phase() == ShotPhases::Phase::after)
+        go_after();
     return is_under_way();
 }
 
-void PaperIncremental::make_lists()
+void PaperIncremental::begin_phases()
 {
     const Patches& layout = solver_->shots().layout();
     const std::vector<std::uint32_t> levels = solver_->shots().levels().download();
@@ -100,30 +99,15 @@ void PaperIncremental::make_lists()
         if (!moves)
             append_chart(c, levels[c], count, solver_->shots().batch(), after);
     }
-    before_list_ = rows_->list_of(std::move(unknown));
-    back_list_ = rows_->list_of(std::move(back));
-    after_list_ = rows_->list_of(std::move(after));
-    after_shot_ = gpu::Array<ChosenPatch>(*device_, view(sending_shot(after_list_.patches)));
+    ShotList after_list = rows_->list_of(std::move(after));
+    after_shot_ = gpu::Array<ChosenPatch>(*device_, view(sending_shot(after_list.patches)));
+    phases_.begin(rows_->list_of(std::move(unknown)), rows_->list_of(std::move(back)),
+                  std::move(after_list));
 }
 
-const ShotList& PaperIncremental::list() const
+/// Moves the world; what moved has no light then.
+void PaperIncremental::go_after()
 {
-    return phase_ == Phase::before ? before_list_
-           : phase_ == Phase::back ? back_list_
-                                   : after_list_;
-}
-
-/// Starts a phase, or the next one that has work.
-void PaperIncremental::go_to(Phase phase)
-{
-    phase_ = phase;
-    next_ = 0;
-    if (phase == Phase::before && before_list_.empty())
-        return go_to(Phase::back);
-    if (phase == Phase::back && back_list_.empty())
-        return go_to(Phase::after);
-    if (phase != Phase::after)
-        return;
     const auto count = std::uint32_t(world_->lumels().size());
     gpu::Pacer& pacer = solver_->pacer();
     pacer.dispatch("redistribute", reset_,
@@ -133,11 +117,10 @@ void PaperIncremental::go_to(Phase phase)
                     .shot = solver_->light().shot},
                    CountParams{count}, count);
     pacer.finish();
-    for (const ChosenPatch& patch : back_list_.patches)
+    for (const ChosenPatch& patch : phases_.back().patches)
         rows_->forget(patch);
     world_->place(move_.transforms);
-    if (after_list_.empty())
-        phase_ = Phase::none;
+    phases_.end_if_empty();
 }
 
 bool PaperIncremental::step()
@@ -146,31 +129,30 @@ bool PaperIncremental::step()
         return false;
     PatchShots& shots = solver_->shots();
     gpu::Pacer& pacer = solver_->pacer();
-    const gpu::Array<ChosenPatch>& shot = phase_ == Phase::after ? after_shot_ : list().chosen;
+    const ShotList& list = phases_.list();
+    const std::uint32_t next = phases_.next();
+    const ShotPhases::Phase phase = phases_.phase();
+    const bool is_after = phase == ShotPhases::Phase::after;
     pacer.work("redistribute", [&](gpu::Commands& commands) {
-        shots.take(commands, solver_->light(), shot, next_);
+        shots.take(commands, solver_->light(), is_after ? after_shot_ : list.chosen, next);
         commands.copy(shots.shots().buffer(), shot_before_.buffer(),
                       shots.batch() * sizeof(PatchShot));
-        if (phase_ == Phase::after)
-            shots.take(commands, solver_->light(), list().chosen, next_);
+        if (is_after)
+            shots.take(commands, solver_->light(), list.chosen, next);
     });
-    if (phase_ == Phase::back) {
-        rows_->shoot(list(), next_, -1.0f);
+    if (phase == ShotPhases::Phase::back) {
+        rows_->shoot(list, next, -1.0f);
     } else {
         shots.look(pacer);
         hemicubes_ += shots.batch();
-        if (phase_ == Phase::before)
-            rows_->record(list(), next_);
-        receive(phase_ == Phase::before);
-        if (phase_ == Phase::after)
+        if (!is_after)
+            rows_->record(list, next);
+        receive(!is_after);
+        if (is_after)
             solver_->settle();
     }
-    next_ += shots.batch();
-    if (next_ < list().patches.size())
-        return true;
-    go_to(phase_ == Phase::before ? Phase::back
-          : phase_ == Phase::back ? Phase::after
-                                  : Phase::none);
+    if (phases_.pass(shots.batch()))
+        go_after();
     return is_under_way();
 }
 
@@ -190,9 +172,9 @@ void PaperIncremental::receive(bool takes_back)
          .eyes = shots.eyes(),
          .shots = shots.shots(),
          .sending = shots.sending(),
-         .row_of = list().rows,
+         .row_of = phases_.list().rows,
          .seen = rows_->seen()},
-        {.batch = rows_->batch(next_, 1.0f), .takes_back = takes_back ? 1u : 0u});
+        {.batch = rows_->batch(phases_.next(), 1.0f), .takes_back = takes_back ? 1u : 0u});
 }
 
 }  // namespace lumel

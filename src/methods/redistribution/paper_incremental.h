@@ -23,21 +23,12 @@ public:
     /// Runs one batch. Returns false when finished: the world is then as after the move, the light
     /// of moved patches is unshot, and the caller sets the near field.
     bool step();
-    bool is_under_way() const { return phase_ != Phase::none; }
+    bool is_under_way() const { return phases_.is_under_way(); }
     std::uint64_t hemicubes() const { return hemicubes_; }  ///< total over all moves
 
 private:
-    /// Phases, each over a list of patches, in this order.
-    enum class Phase {
-        none,
-        before,  ///< patches of unknown visibility render the world before the move
-        back,    ///< moved patches take their light back, R_p(M, C)
-        after,   ///< static patches render the world after the move, R_p(C, M) and R_p(C, C)
-    };
-
-    void make_lists();
-    void go_to(Phase phase);
-    const ShotList& list() const;
+    void begin_phases();
+    void go_after();
     void receive(bool takes_back);
 
     const gpu::Device* device_;
@@ -47,13 +38,11 @@ private:
     VisibilityRows* rows_;
     gpu::Kernel<shaders::PaperIncrementalReset> reset_;
     gpu::Kernel<shaders::PaperIncrementalReceive> receive_;
-    gpu::Array<std::uint32_t> moved_;    ///< [instances] 1: it moves
-    gpu::Array<PatchShot> shot_before_;  ///< [K] B^s of the batch
-    ShotList before_list_, back_list_, after_list_;
-    gpu::Array<ChosenPatch> after_shot_;  ///< after_list_, sending shot light
+    gpu::Array<std::uint32_t> moved_;     ///< [instances] 1: it moves
+    gpu::Array<PatchShot> shot_before_;   ///< [K] B^s of the batch
+    ShotPhases phases_;                   ///< R_p(M, C); R_p(C, M) and R_p(C, C) after the move
+    gpu::Array<ChosenPatch> after_shot_;  ///< list after the move, sending shot light
     Move move_;
-    std::uint32_t next_ = 0;  ///< next entry of the list
-    Phase phase_ = Phase::none;
     std::uint64_t hemicubes_ = 0;
 };
 

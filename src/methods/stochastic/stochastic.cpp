@@ -16,17 +16,16 @@
 //
 // Cost of a step: K views of the occluders, and N × K point pairs.
 //
-// `Scheme::paper` with K = 1 and SampleRule::centre is the iteration of [BJ04] as published: T*
-// acts on the running average. The iteration of [BSS05], whose T* acts on the last value, is
-// GlossyIllumination's.
+// `Scheme::paper` with K = 1, SampleRule::centre and Projection::hemisphere is the iteration of
+// [BJ04], except for the test of visibility, which compares planes and depths (sees.glsl) where the
+// paper compares depths within 0.05: T* acts on the running average. The iteration of [BSS05],
+// whose T* acts on the last value, is GlossyIllumination's.
 //
-// Otherwise it differs from [BJ04]:
+// Scheme::phased differs from [BJ04]:
 // - Points move over receivers and shooters, except with SampleRule::centre.
-// - K shooters per iteration, with Scheme::phased drawn by an Owen-scrambled Sobol sequence.
-// - Scheme::phased iterates in phases (iteration.cpp) and draws a share of the shooters from E
-// alone;
-//   pairs of close lumels are taken out of the sampling and solved exactly (the near field).
-// - Visibility compares planes and depths (sees.glsl), where the paper compares depths within 0.05.
+// - K shooters per iteration are drawn by an Owen-scrambled Sobol sequence.
+// - The iteration is in phases (iteration.cpp); a share of the shooters is drawn from E alone.
+// - Pairs of close lumels are taken out of the sampling and solved exactly (the near field).
 
 #include "methods/stochastic/stochastic.h"
 

@@ -6,8 +6,8 @@
 #include "base/core/hash.glsl"
 #include "raster/parallel/illumination_maps.shared.h"
 
-// What a pixel keeps of a surface: its plane, as nearness and slopes per pixel. Not in divergent
-// control flow.
+// Stored sample of a surface: its nearness, and the slopes of its plane per pixel. Takes
+// derivatives, so control flow must be uniform.
 uvec4 sample_of(float nearness)
 {
     return uvec4(0u, floatBitsToUint(nearness), floatBitsToUint(dFdx(nearness)),

@@ -63,7 +63,7 @@ std::uint32_t fitting(const gpu::Device& device, Layers layers, const ParallelLa
     return directions;
 }
 
-/// Of maps as images. A random sample has slopes too.
+/// Pixel format of maps. Stochastic samples also store slopes.
 gpu::Pixel pixel_of(Layers layers)
 {
     return layers == Layers::stochastic ? gpu::Pixel::rgba32u : gpu::Pixel::rg32u;

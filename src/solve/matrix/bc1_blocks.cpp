@@ -14,7 +14,7 @@
 namespace lumel {
 namespace {
 
-/// How alike the light of neighbouring columns is: errors count over about 16 columns.
+/// Correlation ρ of the light of neighbouring columns: errors count over about 16 columns.
 constexpr float kAlike = 1.0f - 1.0f / 16.0f;
 
 constexpr int kSixths = 6;        // mixtures are thirds and halves of two codes
@@ -214,8 +214,8 @@ float Bc1Encoder::error_of(const Wanted& wanted, const Ends& ends, float limit) 
     return sum;
 }
 
-/// Of the nearest colours, two bits for each texel. carried: unless null, becomes that after the
-/// block.
+/// Indices of the nearest colours, two bits for each texel. carried: unless null, is updated to the
+/// errors after the block.
 std::uint32_t Bc1Encoder::indices_of(const Wanted& wanted, const Ends& ends,
                                      RowErrors* carried) const
 {

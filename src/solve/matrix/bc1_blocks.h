@@ -21,8 +21,8 @@ ColorBlock decode_bc1(const BlockWords& words);
 using FreeChannels = std::array<std::uint8_t, kBlockTexels>;
 inline constexpr std::uint8_t kFreeTexel = 7;
 
-/// Errors (entry − what it decodes to) of a row's columns before a block, each by how alike the
-/// light is that passes there and here [row][channel].
+/// Error that each row has carried so far: Σ (entry − decoded), weighted by ρ^distance
+/// [row][channel].
 using RowErrors = std::array<std::array<float, 3>, kBlockSide>;
 
 /// Encodes blocks of logarithms: codes ln(v) 255 / offset + 255. Minimises the squared errors of

@@ -20,8 +20,8 @@ struct LogOptions {
     /// the largest other entry of its row, and BC1 does not count its error. False, as the paper
     /// writes: the image stores 0 there, and what the block decodes to is added to the exact entry.
     bool mend = true;
-    bool spread =
-        true;  ///< BC1: rounding errors are carried along rows, so that the sums of rows stay right
+    /// BC1: rounding errors are carried along rows, so that the sums of rows stay right.
+    bool spread = true;
 };
 
 /// Codes 0…255: channels [side][side], filled up with 0 to whole blocks.

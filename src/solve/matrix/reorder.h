@@ -7,12 +7,12 @@
 
 namespace lumel {
 
-/// By which lines of the matrix patches are ordered. A row is swapped together with its column and
+/// Lines of the matrix by which patches are ordered. A row is swapped together with its column and
 /// its patch [SF17 figure 6].
 enum class Reordering : std::uint8_t {
     none,
     rows,
-    rows_and_columns,  ///< by rows, then by columns
+    rows_and_columns,  ///< by rows, then by columns, which replaces the first order
 };
 
 /// Greedy: the first row stays, the row most like it (Euclidean distance) follows, and so on.

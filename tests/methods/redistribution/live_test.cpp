@@ -11,11 +11,14 @@
 #include "../../support/source_folder.h"
 #include "base/core/error.h"
 #include "methods/redistribution/live_scene.h"
+#include "moved_box.h"
 #include "scene/sky/light_options.h"
 #include "scene/values/scene.h"
 
 namespace lumel {
 namespace {
+
+using test::apart, test::shifted;
 
 constexpr int kSide = 64;  // of the atlas [texels]
 constexpr int kSmallSide = 24;
@@ -54,32 +57,6 @@ LiveOptions small_options(Redistribution redistribution, std::vector<std::uint32
     return options;
 }
 
-/// The box's place, shifted toward a wall and turned about its own axis [rad].
-glm::mat4 shifted(const Scene& scene, float distance, float angle)
-{
-    const glm::vec3 axis(1.0f, 0.0f, 1.0f);
-    const glm::mat4 shift =
-        glm::translate(glm::mat4(1.0f), axis + glm::vec3(-distance, 0.0f, 0.0f));
-    return glm::translate(glm::rotate(shift, angle, glm::vec3(0, 1, 0)), -axis) *
-           scene.instances[find_instance(scene, "box")].transform;
-}
-
-/// Relative RMSE over lumels that are not buried.
-double apart(const LiveScene& scene, const std::vector<glm::vec3>& values,
-             const std::vector<glm::vec3>& truth)
-{
-    double square = 0.0, sum = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (scene.lumels().lumels[i].flags & kLumelBuried)
-            continue;
-        const glm::dvec3 d = glm::dvec3(values[i]) - glm::dvec3(truth[i]);
-        square += glm::dot(d, d);
-        sum += double(truth[i].r) + double(truth[i].g) + double(truth[i].b);
-        count += 3.0;
-    }
-    return std::sqrt(square / count) / (sum / count);
-}
-
 /// A device whose validation layers must find nothing.
 template <class Param>
 class OnDevice : public testing::TestWithParam<Param> {
@@ -107,6 +84,19 @@ struct Moved {
 
 class MovedBox : public OnDevice<Moved> {};
 
+Scene scene_of(const Moved& given)
+{
+    return read_gltf(support::source_path("scenes/" + std::string(given.scene) + ".gltf"));
+}
+
+LiveOptions options_for(const Scene& scene, const Moved& given)
+{
+    LiveOptions options = options_for(scene, given.redistribution);
+    options.atlas.size = given.side;
+    options.solver.views.hemicube = given.hemicube;
+    return options;
+}
+
 std::string moved_name(const testing::TestParamInfo<Moved>& test)
 {
     return (test.param.redistribution == Redistribution::cross ? "cross_" : "incremental_") +
@@ -128,11 +118,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(MovedBox, IsLitAsIfItAlwaysStoodSo)
 {
     const Moved& given = GetParam();
-    const Scene scene =
-        read_gltf(support::source_path("scenes/" + std::string(given.scene) + ".gltf"));
-    LiveOptions options = options_for(scene, given.redistribution);
-    options.atlas.size = given.side;
-    options.solver.views.hemicube = given.hemicube;
+    const Scene scene = scene_of(given);
+    LiveOptions options = options_for(scene, given);
     const std::uint32_t block = options.movers[0];
     const glm::mat4 place = shifted(scene, 0.2f, 0.5f);
 
@@ -252,10 +239,8 @@ TEST_P(LiveScenes, ShortBudgetsEndLikeOneLongCall)
 TEST_P(MovedBox, IsLitHalfAsMuchByHalfTheLamp)
 {
     const Moved& given = GetParam();
-    const Scene scene =
-        read_gltf(support::source_path("scenes/" + std::string(given.scene) + ".gltf"));
-    LiveOptions options = options_for(scene, given.redistribution);
-    options.atlas.size = given.side;
+    const Scene scene = scene_of(given);
+    LiveOptions options = options_for(scene, given);
     options.solver.views.hemicube = kSmallHemicube;
     LiveScene live(device, scene, options);
     live.move(options.movers[0], shifted(scene, 0.0f, glm::radians(20.0f)));

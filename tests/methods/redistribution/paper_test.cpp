@@ -10,10 +10,13 @@
 #include "methods/gather/gather.h"
 #include "methods/redistribution/lamp_shadows.h"
 #include "methods/redistribution/live_scene.h"
+#include "moved_box.h"
 #include "scene/values/scene.h"
 
 namespace lumel {
 namespace {
+
+using test::shifted;
 
 constexpr int kSide = 32;  // of the atlas [texels]
 constexpr int kHemicube = 64;
@@ -33,30 +36,11 @@ LiveOptions options_of(const Scene& scene, Redistribution redistribution, int si
     return options;
 }
 
-/// Position of the box after a shift toward a wall [m] and a turn [rad].
-glm::mat4 shifted(const Scene& scene, float distance, float angle)
-{
-    const glm::vec3 axis(1.0f, 0.0f, 1.0f);
-    const glm::mat4 shift =
-        glm::translate(glm::mat4(1.0f), axis + glm::vec3(-distance, 0.0f, 0.0f));
-    return glm::translate(glm::rotate(shift, angle, glm::vec3(0, 1, 0)), -axis) *
-           scene.instances[find_instance(scene, "box")].transform;
-}
-
 /// Relative RMSE over static lumels that are not buried.
 double apart(const LiveScene& scene, const std::vector<glm::vec3>& values,
              const std::vector<glm::vec3>& truth)
 {
-    double square = 0.0, sum = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (scene.lumels().lumels[i].flags & (kLumelBuried | kLumelMoving))
-            continue;
-        const glm::dvec3 d = glm::dvec3(values[i]) - glm::dvec3(truth[i]);
-        square += glm::dot(d, d);
-        sum += double(truth[i].r) + double(truth[i].g) + double(truth[i].b);
-        count += 3.0;
-    }
-    return std::sqrt(square / count) / (sum / count);
+    return test::apart(scene, values, truth, kLumelBuried | kLumelMoving);
 }
 
 /// H after the move to `place`, in a solution that had the box elsewhere.

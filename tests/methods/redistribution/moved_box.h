@@ -1,0 +1,40 @@
+#pragma once
+// The box of the thesis' scenes, moved, and the light of its scene.
+
+#include <cmath>
+#include <vector>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "methods/redistribution/live_scene.h"
+#include "scene/values/scene.h"
+
+namespace lumel::test {
+
+/// The box's place, shifted toward a wall [m] and turned about its own axis [rad].
+inline glm::mat4 shifted(const Scene& scene, float distance, float angle)
+{
+    const glm::vec3 axis(1.0f, 0.0f, 1.0f);
+    const glm::mat4 shift =
+        glm::translate(glm::mat4(1.0f), axis + glm::vec3(-distance, 0.0f, 0.0f));
+    return glm::translate(glm::rotate(shift, angle, glm::vec3(0, 1, 0)), -axis) *
+           scene.instances[find_instance(scene, "box")].transform;
+}
+
+/// Relative RMSE over lumels with none of the flags `left_out`.
+inline double apart(const LiveScene& scene, const std::vector<glm::vec3>& values,
+                    const std::vector<glm::vec3>& truth, std::uint32_t left_out = kLumelBuried)
+{
+    double square = 0.0, sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (scene.lumels().lumels[i].flags & left_out)
+            continue;
+        const glm::dvec3 d = glm::dvec3(values[i]) - glm::dvec3(truth[i]);
+        square += glm::dot(d, d);
+        sum += double(truth[i].r) + double(truth[i].g) + double(truth[i].b);
+        count += 3.0;
+    }
+    return std::sqrt(square / count) / (sum / count);
+}
+
+}  // namespace lumel::test
