@@ -130,11 +130,11 @@ LinkRadiosity::learn_block(std::size_t b, const std::array<SentLight, kSolutions
     return learnt;
 }
 
-/// Learns from the first round, whose rays are uniform.
-void LinkRadiosity::learn_guide()
+/// Learns from the first round, whose rays are uniform. Returns whether any group gains.
+bool LinkRadiosity::learn_guide()
 {
     if (!can_guide())
-        return;
+        return false;
     std::array<SentLight, kSolutions> sent;
     for (std::size_t k = 0; k < kSolutions; ++k)
         sent[k] = light_sent(k);
@@ -153,6 +153,7 @@ void LinkRadiosity::learn_guide()
                 guide_.group[work_.order[o]] = std::uint32_t(guide_.tables.size());
             guide_.tables.push_back(group.table);
         }
+    return !guide_.empty();
 }
 
 /// Of a round's rays; null: they are uniform.

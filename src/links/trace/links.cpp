@@ -268,9 +268,13 @@ void LinkRadiosity::begin_links()
 void LinkRadiosity::solve()
 {
     const ReflectedLight reflected(work_, *parts_, *numbers_, *direct_);
+    double factor = 0.0;
     for (std::size_t k = 0; k < kSolutions; ++k) {
         sources_[k] = find_source_term(work_, *parts_, *numbers_, reflected, *links_[k]);
-        solver_->solve(*links_[k], sources_[k], sweep_residual(), received_[k]);
+        // From the light of the first: only a residual's share of that is left.
+        if (received_[k].empty())
+            received_[k] = received_[0];
+        factor = solver_->solve(*links_[k], sources_[k], sweep_residual(), received_[k], factor);
         sources_[k].light = std::vector<glm::vec4>();  // frees it
         if (lamps_)
             swept_sky_[k] = links_[k]->sky;

@@ -159,7 +159,7 @@ private:
                      const SentLight& sent, GuideMoments& moments) const;
     std::vector<LearntGroup> learn_block(std::size_t block,
                                          const std::array<SentLight, kSolutions>& sent) const;
-    void learn_guide();
+    bool learn_guide();
     const RayGuide* guide_in(std::uint32_t round) const;
     bool has_known_round() const;
     StoredLinks::Round stored_round(std::size_t round, const LinkNumbers& stored) const;

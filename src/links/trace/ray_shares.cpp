@@ -16,6 +16,8 @@ constexpr double kEvenShare = 0.25;
 constexpr std::uint16_t kFirstOfCut = 32;
 /// Maximum assumed gain of guided rays: few rays tell it, and a further round costs more than rays.
 constexpr double kMostGain = 3.0;
+/// Rays that a limit leaves after a round, relative to all so far, that are not worth another.
+constexpr double kTooFew = 0.05;
 /// Bisection steps for the rays that all lumels add.
 constexpr int kFillSteps = 24;
 /// Minimum brightness in ray allocation, relative to the mean.
@@ -231,7 +233,11 @@ void LinkRadiosity::share_out_rays(double most)
         lit += work_.is_buried(i) ? 0.0 : 1.0;
     }
     mean_rays_ = sum / std::max(lit, 1.0);
-    const double scale = mean_rays_ > most ? most / mean_rays_ : 1.0;
+    // Rays that the limit would leave for a round too small are sent in this one.
+    const double after = double(state_.shots) / double(kSolutions) + mean_rays_;
+    const bool is_last = more_rays() >= most && most - mean_rays_ < kTooFew * after;
+    const double scale =
+        mean_rays_ > most || (is_last && mean_rays_ > 0.0) ? most / mean_rays_ : 1.0;
     mean_rays_ *= scale;
     for (std::size_t i = 0; i < rays.size(); ++i)
         rays_[i] = std::uint16_t(std::clamp(std::lround(scale * rays[i]), 0l, long(kMaxLinks)));

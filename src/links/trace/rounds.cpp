@@ -15,6 +15,9 @@ constexpr double kMaxAdded = 3.0;
 constexpr double kLeastOfChart = 2.0, kMostOfChart = 16.0, kAim = 0.5;
 /// Rays allocated by deviation reduce the variance like 1 / kAdaptiveGain as many uniform ones.
 constexpr double kAdaptiveGain = 0.6;
+/// Rays of the second round, relative to those of the first, from which on they gain more by a
+/// guide than it takes to learn it.
+constexpr double kWorthAGuide = 0.25;
 /// Refines direct light if its variance is this multiple of its target; at most to kMinDirect × the
 /// present variance in one pass.
 constexpr double kTooUncertain = 1.25, kMinDirect = 1.0 / 16.0;
@@ -125,18 +128,20 @@ void LinkRadiosity::begin_round()
     if (state_.shots == 0) {
         send_first_rays(most);
     } else {
-        state_.full = fit < kMinAdded * double(state_.shots) / double(kSolutions);
+        const double so_far = double(state_.shots) / double(kSolutions);
+        state_.full = fit < kMinAdded * so_far;
         if (!state_.full) {
-            if (round_ == 1)
-                learn_guide();
             share_out_rays(most);
+            if (round_ == 1 && mean_rays_ > kWorthAGuide * so_far && learn_guide())
+                share_out_rays(most);
         }
         state_.ended = !state_.full && !(mean_rays_ > 0.0);
         if (state_.full || state_.ended) {
             stage_ = Stage::direct;  // without work
             return;
         }
-        leave_sealed_space();
+        if (more_rays() > 0.0)
+            leave_sealed_space();
     }
     refined_ = {};
     filter_.reset();

@@ -367,10 +367,11 @@ public:
         find_floors();
     }
 
-    /// Runs until the residual is reached.
-    void run(double residual)
+    /// Runs until the residual is reached. Returns the last factor between changes.
+    double run(double residual, double least_factor = 0.0)
     {
         std::optional<Groups> groups;
+        double factor = 0.0;
         std::array<double, Lanes> before{};
         for (int sweep = 1; sweep <= kSweepLimit; ++sweep) {
             const Change<Lanes> change = sweep_all();
@@ -380,8 +381,9 @@ public:
                 // Changes that shrink by a factor q leave q / (1 - q) of the last as residual. The
                 // first change does not: it is all light in the first round, and noise of new rays
                 // in later ones.
-                const double factor = std::min(
-                    before[lane] > 0.0 ? size / before[lane] : kSlowestSweep, kSlowestSweep);
+                if (!groups)
+                    factor = std::clamp(before[lane] > 0.0 ? size / before[lane] : kSlowestSweep,
+                                        least_factor, kSlowestSweep);
                 const double to_come = groups && size > 0.0
                                            ? size + groups->correct(sent_, next_, lane)
                                            : size * factor / (1.0 - factor);
@@ -390,12 +392,13 @@ public:
             }
             sent_.swap(next_);
             if (is_done)
-                return;
+                break;
             if (sweep == 1)
                 find_floors();
             if (sweep == kPlainSweeps)
                 groups.emplace(solver_, system_);
         }
+        return factor;
     }
 
     void run_once() { sweep_all(); }
@@ -481,12 +484,12 @@ private:
     std::array<double, Lanes> floor_{};
 };
 
-void LinkSolver::solve(const LinkTable& links, const SourceTerm& source, double residual,
-                       std::vector<glm::vec3>& received) const
+double LinkSolver::solve(const LinkTable& links, const SourceTerm& source, double residual,
+                         std::vector<glm::vec3>& received, double least_factor) const
 {
     received.resize(parts_.count(), glm::vec3(0.0f));
     const System system{links, source};
-    Sweeps<1>(*this, system, received).run(residual);
+    return Sweeps<1>(*this, system, received).run(residual, least_factor);
 }
 
 void LinkSolver::solve_lamps(const LinkTable& links, const SourceTerm& source, double residual,

@@ -24,10 +24,12 @@ public:
     LinkSolver(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers);
 
     /// X [P] [lx]; starts from `received` unless it is empty. residual: RMS of the light left out,
-    /// relative to each sub-lumel's own. Throws Error{input} if the light of a closed room is never
-    /// absorbed.
-    void solve(const LinkTable& links, const SourceTerm& source, double residual,
-               std::vector<glm::vec3>& received) const;
+    /// relative to each sub-lumel's own. least_factor: minimum assumed factor between changes of
+    /// successive sweeps. Returns the last factor seen, for other links of the same scene: where
+    /// `received` is nearly solved, noise hides how slowly the level of the light converges. Throws
+    /// Error{input} if the light of a closed room is never absorbed.
+    double solve(const LinkTable& links, const SourceTerm& source, double residual,
+                 std::vector<glm::vec3>& received, double least_factor = 0.0) const;
 
     /// X [P][kLampLanes] of a few lamps at once, from darkness; source: of these.
     void solve_lamps(const LinkTable& links, const SourceTerm& source, double residual,

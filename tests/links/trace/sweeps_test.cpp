@@ -35,13 +35,17 @@ struct TracedRoom {
     /// Adds a round of links with other random numbers, then finds all bounces.
     void add_round(std::uint16_t rays, const RayGuide* guide = nullptr)
     {
+        trace(rays, guide);
+        factor = solver.solve(links, source, 1e-3, received, factor);
+    }
+
+    void trace(std::uint16_t rays, const RayGuide* guide)
+    {
         links.rounds.emplace_back(tracer.blocks());
         const std::vector<std::uint16_t> each(work.order.size(), rays);
-        LinkTracer::Sending sending{each, kLinkStream + std::uint32_t(links.rounds.size()), nullptr,
-                                    guide};
+        LinkTracer::Sending sending{each, kLinkStream + ++streams, nullptr, guide};
         tracer.trace(0, tracer.blocks(), sending, links);
         source = find_source_term(work, parts, numbers, {work, parts, numbers, direct}, links);
-        solver.solve(links, source, 1e-3, received);
     }
 
     SolveScene scene;
@@ -54,6 +58,8 @@ struct TracedRoom {
     LinkTable links;
     SourceTerm source;
     std::vector<glm::vec3> received;  ///< [P] [lx]
+    double factor = 0.0;              ///< between changes of sweeps
+    std::uint32_t streams = 0;        ///< of random numbers, so far
 };
 
 /// A link from a sub-lumel to another.
@@ -141,8 +147,21 @@ TEST(LinkSolver, SolvesLaterRoundsAsWellAsTheFirst)
     constexpr double kSolved = 5e-3;  // a first round ends here, at an estimated 1e-3
     TracedRoom room;
     for (const int rays : {8, 8, 16, 32}) {
+        room.factor = 0.0;
         room.add_round(std::uint16_t(rays));
         EXPECT_LE(distance_from_limit(room), kSolved) << "round " << room.links.rounds.size();
+    }
+}
+
+TEST(LinkSolver, SolvesFromTheLightOfOtherLinks)
+{
+    constexpr double kSolved = 5e-3;
+    TracedRoom room;
+    room.add_round(8);
+    for (int other = 0; other < 3; ++other) {
+        room.links = LinkTable(room.parts.count());
+        room.add_round(8);
+        EXPECT_LE(distance_from_limit(room), kSolved) << "links " << other;
     }
 }
 
