@@ -8,6 +8,7 @@
 #include "jobs/bake/reference.h"
 #include "jobs/inspect/measure.h"
 #include "jobs/inspect/probes.h"
+#include "jobs/inspect/room_report.h"
 #include "jobs/inspect/why.h"
 #include "jobs/play/play.h"
 #include "jobs/relight/relight.h"
@@ -121,6 +122,7 @@ struct ReportArguments {
     std::string folder;  ///< finished bake
     std::string other;   ///< finished bake to compare with, or empty
     std::string page;    ///< HTML file to write; empty: report.html in the folder
+    RoomOptions room;    ///< without a use: no report of the room
 };
 
 struct DevicesArguments {

@@ -28,15 +28,6 @@ MeasurePoint point_of(const std::string& text)
     return point;
 }
 
-std::array<double, 4> bounds_of(const std::string& text)
-{
-    const std::vector<double> n = coordinates_of(text);
-    if (n.size() != 4 || !(n[0] < n[2]) || !(n[1] < n[3]))
-        refuse_value(fmt::format(
-            "--bounds: '{}' is not of the form X0,Z0,X1,Z1 with X0 < X1 and Z0 < Z1", text));
-    return {n[0], n[1], n[2], n[3]};
-}
-
 void add_places(Command& command, MeasureOptions& options)
 {
     command.add(
@@ -65,7 +56,8 @@ void add_places(Command& command, MeasureOptions& options)
          {.names = "--bounds",
           .type = "X0,Z0,X1,Z1",
           .help = "Corners of the plane in metres",
-          .target = [&options](const std::string& text) { options.bounds = bounds_of(text); },
+          .target = [&options](
+                        const std::string& text) { options.bounds = corners_of("--bounds", text); },
           .default_value = "the scene's",
           .needs = "--plane"},
          {"--samples", "N", "Hemisphere rays per point; as many again go to light sources",

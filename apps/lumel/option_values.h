@@ -2,6 +2,7 @@
 // Kinds of values that options take.
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <optional>
@@ -35,6 +36,9 @@ inline constexpr double kFarthest = 1e6;
 
 /// The numbers of "X,Y,Z"; empty if one is none, or is beyond kFarthest.
 std::vector<double> coordinates_of(const std::string& text);
+
+/// X0, Z0, X1 and Z1 of a rectangle. option: that has the value. Throws Error{input}.
+std::array<double, 4> corners_of(const std::string& option, const std::string& text);
 
 /// The bytes of "512M", "2G" or "1.5G"; nothing for what is no such size.
 std::optional<std::uint64_t> bytes_of(const std::string& text);

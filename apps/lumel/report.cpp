@@ -25,8 +25,14 @@ int run(const ReportArguments& arguments)
         read_bake_record(folder);  // throws for what is no bake
     const std::string page = arguments.page.empty() ? page_in(arguments.folder) : arguments.page;
     constexpr double kMegabyte = 1e6;  // [bytes]
-    const std::size_t size = write_page(page, folders);
-    fmt::print("{}: {:.1f} MB\n", page, double(size) / kMegabyte);
+    Json room;
+    if (!arguments.room.use.empty()) {
+        check_viewer();
+        room = room_data(arguments.folder, arguments.room);
+    }
+    const std::size_t size = write_page(page, folders, room);
+    fmt::print("{}{}: {:.1f} MB\n", room.is_null() ? "" : room_text(room), page,
+               double(size) / kMegabyte);
     return kExitDone;
 }
 

@@ -2,9 +2,77 @@
 
 #include <memory>
 
+#include "option_values.h"
 #include "shared_options.h"
 
 namespace lumel {
+namespace {
+
+constexpr const char* kRoomGroup = "Report of a room by EN 12464-1";
+constexpr double kMostLux = 1e5;
+constexpr int kMinSamples = 64, kMaxSamples = 1 << 24;
+
+void add_room(Command& command, RoomOptions& room)
+{
+    command.add(
+        kRoomGroup,
+        {{"--en12464", "USE",
+          "Add maintained illuminance, uniformity and lamps, with what the standard requires: " +
+              names_of_room_uses(),
+          &room.use},
+         {.names = "--task",
+          .type = "X0,Z0,X1,Z1",
+          .help = "Corners of the task area in metres; around it, the immediate surrounding area "
+                  "and the background are measured too",
+          .target = [&room](const std::string& text) { room.task = corners_of("--task", text); },
+          .default_value = "the room without a strip of 0.5 m",
+          .needs = "--en12464"},
+         {.names = "--bounds",
+          .type = "X0,Z0,X1,Z1",
+          .help = "Corners of the room in metres",
+          .target =
+              [&room](const std::string& text) { room.bounds = corners_of("--bounds", text); },
+          .default_value = "the scene's",
+          .needs = "--en12464"},
+         {.names = "--plane",
+          .type = "Y",
+          .help = "Height of the task area in metres",
+          .target = [&room](double height) { room.height = height; },
+          .default_value = "by the use, above the lowest surface",
+          .check = between(-kFarthest, kFarthest),
+          .needs = "--en12464"},
+         {.names = "--maintenance",
+          .type = "F",
+          .help = "Maintenance factor: illuminance before cleaning and new lamps, relative to that "
+                  "of the bake",
+          .target = &room.maintenance,
+          .default_value = text_of(room.maintenance),
+          .check = between(0.01, 1.0),
+          .needs = "--en12464"},
+         {.names = "--illuminance",
+          .type = "LX",
+          .help = "Required maintained illuminance of the task area in lux",
+          .target = [&room](double lux) { room.illuminance = lux; },
+          .default_value = "by the use",
+          .check = between(0.0, kMostLux),
+          .needs = "--en12464"},
+         {.names = "--uniformity",
+          .type = "U",
+          .help = "Required uniformity of the task area",
+          .target = [&room](double uniformity) { room.uniformity = uniformity; },
+          .default_value = "by the use",
+          .check = between(0.0, 1.0),
+          .needs = "--en12464"},
+         {.names = "--samples",
+          .type = "N",
+          .help = "Hemisphere rays per point; as many again go to light sources",
+          .target = &room.samples,
+          .default_value = text_of(room.samples),
+          .check = whole(kMinSamples, kMaxSamples),
+          .needs = "--en12464"}});
+}
+
+}  // namespace
 
 Command report_command()
 {
@@ -14,6 +82,7 @@ Command report_command()
     command.add(
         {bake_argument(given->folder),
          {"other", "FOLDER", "Second bake, compared with the first by a slider", &given->other}});
+    add_room(command, given->room);
     command.add("Files", {{"-o,--output", "FILE", "HTML file to write", &given->page,
                            "report.html in the first folder"}});
     command.arguments = [given](const Command&) -> Arguments { return {*given}; };

@@ -149,5 +149,22 @@ TEST(Measure, RefusesWhatItCannotUse)
         2, {"--sky", "overcast:LUX"});
 }
 
+TEST(Measure, RoomsThatCannotBeReportedAreRefused)
+{
+    const Bake bake("cornell-box.gltf", {"--shots", "16"});
+    const auto refused = [&](const std::vector<std::string>& more,
+                             const std::vector<std::string>& words) {
+        std::vector<std::string> command = {"report", bake.place.path("out")};
+        command.insert(command.end(), more.begin(), more.end());
+        expect_one_sentence(run_lumel(command), 2, words);
+    };
+    refused({"--en12464", "ofice"}, {"ofice", "office"});
+    refused({"--task", "0,0,1,1"}, {"--task", "--en12464"});
+    refused({"--en12464", "office", "--task", "0,0,9,9"}, {"--task", "within"});
+    refused({"--en12464", "office", "--task", "1,1,0,0"}, {"--task", "X0 < X1"});
+    refused({"--en12464", "office", "--bounds", "-1e6,-1e6,1e6,1e6"}, {"--bounds", "million"});
+    refused({"--en12464", "office", "--maintenance", "1.5"}, {"--maintenance"});
+}
+
 }  // namespace
 }  // namespace lumel::test

@@ -61,22 +61,22 @@ ArrivingLight::ArrivingLight(const Scene& scene, const RayScene& rays, const Atl
 {
 }
 
-glm::vec3 ArrivingLight::met_along(const glm::vec3& position, const glm::vec3& direction,
-                                   std::uint32_t seed, std::uint32_t& backs) const
+MetLight ArrivingLight::met_along(const glm::vec3& position, const glm::vec3& direction,
+                                  std::uint32_t seed, std::uint32_t& backs) const
 {
     RayHit hit;
     if (!rays_.closest(ray_out(position, direction, seed), hit))
-        return kPi * hit.tint * sources_.dim_sky(direction);
+        return {.light = kPi * hit.tint * sources_.dim_sky(direction), .is_sky = true};
     if (!hit.front && !surfaces_.all()[surfaces_.index(hit.instance, hit.primitive)].double_sided) {
         ++backs;
-        return glm::vec3(0.0f);
+        return {};
     }
     const std::uint32_t lumel = hits_.lumel(hit);
     if (lumel == HitLumels::kNone)
-        return glm::vec3(0.0f);
+        return {};
     if (dark_[lumel])
         ++backs;
-    return hit.tint * reflected_[lumel];
+    return {.light = hit.tint * reflected_[lumel], .lumel = lumel};
 }
 
 glm::vec3 ArrivingLight::transmittance(const RayOrigin& start, const SourceSample& sample,

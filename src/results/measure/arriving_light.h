@@ -14,6 +14,13 @@
 
 namespace lumel {
 
+/// What a ray brings, without light of sources.
+struct MetLight {
+    glm::vec3 light{0.0f};                   ///< π L
+    std::uint32_t lumel = HitLumels::kNone;  ///< that reflects it
+    bool is_sky = false;                     ///< of LightSources::dim_sky()
+};
+
 /// Thread-safe.
 class ArrivingLight {
 public:
@@ -28,10 +35,10 @@ public:
         return lumel::allocate_rays(sources_, position, rays);
     }
 
-    /// π L along a ray, without light of sources. backs: counts rays from the inside of objects:
+    /// Light along a ray. backs: counts rays from the inside of objects:
     /// those that hit the back of a single-sided surface, or an unlit back of a double-sided one.
-    glm::vec3 met_along(const glm::vec3& position, const glm::vec3& direction, std::uint32_t seed,
-                        std::uint32_t& backs) const;
+    MetLight met_along(const glm::vec3& position, const glm::vec3& direction, std::uint32_t seed,
+                       std::uint32_t& backs) const;
 
     /// Transmittance to a sample; traces no ray if its light is 0.
     glm::vec3 transmittance(const RayOrigin& start, const SourceSample& sample,

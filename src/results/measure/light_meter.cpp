@@ -29,18 +29,26 @@ LightMeter::LightMeter(const Scene& scene, const RayScene& rays, const Atlas& at
 {
 }
 
-Reading LightMeter::read(const MeterPoint& point, std::uint32_t number) const
+RayOrigin LightMeter::start_at(const MeterPoint& point) const
 {
     const float ray_offset = light_.ray_offset(point.position, point.normal);
-    const RayOrigin start = origin_at(point.position + ray_offset * point.normal, point.normal);
+    return origin_at(point.position + ray_offset * point.normal, point.normal);
+}
+
+Reading LightMeter::read(const MeterPoint& point, std::uint32_t number) const
+{
+    const RayOrigin start = start_at(point);
     const RayAllocation shares = light_.allocate_rays(start.position, rays_of_set_);
     std::array<double, kRaySets> lux;
     Reading reading;
     std::uint32_t backs = 0;
     for (std::uint32_t set = 0; set < kRaySets; ++set) {
         const std::uint32_t stream = stream_of_set(seed_, number, set);
-        const glm::vec3 light =
-            along_rays(start, stream, backs) + from_sources(start, shares, stream);
+        glm::vec3 along(0.0f), sources(0.0f);
+        along_rays(start, stream, backs, [&](const MetLight& met) { along += met.light; });
+        from_sources(start, shares, stream,
+                     [&](std::size_t, const glm::vec3& light) { sources += light; });
+        const glm::vec3 light = along / float(rays_of_set_) + sources;
         reading.light += light / float(kRaySets);
         lux[set] = luminance(light);
         reading.lux += lux[set] / kRaySets;
@@ -53,33 +61,58 @@ Reading LightMeter::read(const MeterPoint& point, std::uint32_t number) const
     return reading;
 }
 
-glm::vec3 LightMeter::along_rays(const RayOrigin& start, std::uint32_t stream,
-                                 std::uint32_t& backs) const
+std::vector<double> LightMeter::read_lamps(const MeterPoint& point, std::uint32_t number,
+                                           const LampShares& shares) const
 {
-    glm::vec3 sum(0.0f);
+    const RayOrigin start = start_at(point);
+    const RayAllocation allocation = light_.allocate_rays(start.position, rays_of_set_);
+    std::vector<double> lux(shares.lamps.all.size(), 0.0);
+    std::uint32_t backs = 0;
+    const auto add_met = [&](const MetLight& met) {
+        const double rays = double(kRaySets) * double(rays_of_set_);
+        if (met.is_sky)
+            lux[shares.lamps.of_dim_sky] += luminance(met.light) / rays;
+        else if (met.lumel != HitLumels::kNone)
+            for (std::size_t k = 0; k < lux.size(); ++k)
+                lux[k] += luminance(met.light * shares.of_lumels[k][met.lumel]) / rays;
+    };
+    for (std::uint32_t set = 0; set < kRaySets; ++set) {
+        const std::uint32_t stream = stream_of_set(seed_, number, set);
+        along_rays(start, stream, backs, add_met);
+        from_sources(start, allocation, stream, [&](std::size_t source, const glm::vec3& light) {
+            lux[shares.lamps.of_source[source]] += luminance(light) / double(kRaySets);
+        });
+    }
+    return lux;
+}
+
+/// Calls add(met) for each ray of a set.
+template <class Add>
+void LightMeter::along_rays(const RayOrigin& start, std::uint32_t stream, std::uint32_t& backs,
+                            const Add& add) const
+{
     for (std::uint32_t k = 0; k < rays_of_set_; ++k) {
         const PathSamples samples(stream, k);
         const glm::vec2 disc = square_to_disc(samples.stratified(kDirectionPair));
         const float up = std::sqrt(std::max(1.0f - glm::dot(disc, disc), 0.0f));
-        sum += light_.met_along(start.position, turn_to(start.normal, disc.x, disc.y, up),
-                                samples.bits(kSeedPair), backs);
+        add(light_.met_along(start.position, turn_to(start.normal, disc.x, disc.y, up),
+                             samples.bits(kSeedPair), backs));
     }
-    return sum / float(rays_of_set_);
 }
 
-glm::vec3 LightMeter::from_sources(const RayOrigin& start, const RayAllocation& shares,
-                                   std::uint32_t stream) const
+/// Calls add(source, light) for parts of the light of a set.
+template <class Add>
+void LightMeter::from_sources(const RayOrigin& start, const RayAllocation& shares,
+                              std::uint32_t stream, const Add& add) const
 {
-    glm::vec3 sum(0.0f);
     for (const RayAllocation::Own& own : shares.own)
-        sum += from_source(start, own, stream);
+        add(own.source, from_source(start, own, stream));
     for_shared_rays(shares, stream, 0, shares.rest_rays,
                     [&](std::size_t source, float chance, const glm::vec2& at, std::uint32_t seed) {
                         const SourceSample sample = light_.sources().sample(source, start, at);
-                        sum += light_.transmittance(start, sample, seed) * sample.irradiance /
-                               (chance * float(shares.rest_rays));
+                        add(source, light_.transmittance(start, sample, seed) * sample.irradiance /
+                                        (chance * float(shares.rest_rays)));
                     });
-    return sum;
 }
 
 glm::vec3 LightMeter::from_source(const RayOrigin& start, const RayAllocation::Own& own,

@@ -1,6 +1,9 @@
 #pragma once
 // Light meter at a point of a solved scene, in the air or on a surface.
 
+#include <vector>
+
+#include "lights/lamps.h"
 #include "results/measure/arriving_light.h"
 
 namespace lumel {
@@ -23,6 +26,12 @@ struct Reading {
     bool inside = false;    ///< true if it seems to be inside an object
 };
 
+/// Lamps, with the share of each in the light of a solution.
+struct LampShares {
+    LampTable lamps;
+    std::vector<std::vector<glm::vec3>> of_lumels;  ///< [lamps][N] by channel, 0…1
+};
+
 /// Thread-safe.
 class LightMeter {
 public:
@@ -33,13 +42,22 @@ public:
     /// number: of the point; selects its random numbers.
     Reading read(const MeterPoint& point, std::uint32_t number) const;
 
+    /// [lamps] Illuminance at a point by each lamp [lx]; their sum is read().lux.
+    std::vector<double> read_lamps(const MeterPoint& point, std::uint32_t number,
+                                   const LampShares& shares) const;
+
+    const LightSources& sources() const { return light_.sources(); }
     /// True if there is light other than the sky's.
-    bool has_lamps() const { return light_.sources().count() > 0; }
+    bool has_lamps() const { return sources().count() > 0; }
 
 private:
-    glm::vec3 along_rays(const RayOrigin& start, std::uint32_t stream, std::uint32_t& backs) const;
-    glm::vec3 from_sources(const RayOrigin& start, const RayAllocation& shares,
-                           std::uint32_t stream) const;
+    RayOrigin start_at(const MeterPoint& point) const;
+    template <class Add>
+    void along_rays(const RayOrigin& start, std::uint32_t stream, std::uint32_t& backs,
+                    const Add& add) const;
+    template <class Add>
+    void from_sources(const RayOrigin& start, const RayAllocation& shares, std::uint32_t stream,
+                      const Add& add) const;
     glm::vec3 from_source(const RayOrigin& start, const RayAllocation::Own& own,
                           std::uint32_t stream) const;
 

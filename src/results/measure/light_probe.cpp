@@ -121,7 +121,7 @@ void LightProbe::add_rays(const glm::vec3& position, std::uint32_t stream, std::
         const PathSamples samples(stream, k);
         const glm::vec3 direction = on_sphere(samples.stratified(kDirectionPair));
         add(sums, direction,
-            share * light_.met_along(position, direction, samples.bits(kSeedPair), backs));
+            share * light_.met_along(position, direction, samples.bits(kSeedPair), backs).light);
     }
 }
 

@@ -19,6 +19,7 @@
 #include "results/page/lamp_list.h"
 #include "results/page/packed_text.h"
 #include "results/page/viewer.h"
+#include "results/page/whole_map.h"
 #include "results/record/bake_record.h"
 
 namespace lumel {
@@ -49,25 +50,6 @@ std::vector<std::uint8_t> without_lightmap(const std::string& path)
         builder.retire_texture(texture);
     builder.release();
     return builder.finish();
-}
-
-/// All pages of a map, arranged as in Pages.
-Image whole_map(const std::string& folder, const Pages& pages, const std::string& name)
-{
-    Image map;
-    for (int page = 0; page < pages.count; ++page) {
-        const std::string file = page_name(pages, page, name) + ".exr";
-        const Image part = read_exr((fs::path(folder) / file).string());
-        if (pages.count == 1)
-            return part;
-        const Pages read{pages.count, part.width};
-        if (page == 0)
-            map = Image(read.map_side(), read.map_side(), part.channels);
-        if (part.height != part.width || read.map_side() != map.width)
-            throw Error(ErrorKind::input, file, "has another size than the other pages");
-        paste_page(read, page, part, map);
-    }
-    return map;
 }
 
 /// A lightmap as KTX2 with shared exponents, a quarter of its floats' size, and the irradiance of
@@ -102,12 +84,6 @@ std::vector<std::uint8_t> error_bytes(const std::string& solution, const Image& 
         bytes.push_back(error > 0.0f ? std::uint8_t(std::lround(1.0f + 254.0f * place)) : 0);
     }
     return bytes;
-}
-
-int pages_in(const std::optional<JsonView>& sizes)
-{
-    const auto pages = sizes ? sizes->find("pages") : std::nullopt;
-    return pages ? int(pages->integer(1, kMaxPages)) : 1;
 }
 
 /// Data for viewer/lamp_map.js: the lamps, and the maps of all as text. width, height: of the
@@ -179,7 +155,7 @@ Json page_data(const std::string& folder, const std::string& name)
 {
     const auto in_folder = [&](const char* file) { return (fs::path(folder) / file).string(); };
     const Json report = read_json(in_folder(kReportFile));
-    const Pages pages{pages_in(JsonView(folder, report).find("sizes")), 0};
+    const Pages pages = pages_in(folder, report);
     Image map = whole_map(folder, pages, kLightmapName);
     const int width = map.width, height = map.height;
     const std::vector<std::uint8_t> errors = error_bytes(in_folder(kSolutionFile), map);
@@ -197,13 +173,16 @@ Json page_data(const std::string& folder, const std::string& name)
     return data;
 }
 
-std::size_t write_page(const std::string& path, std::span<const std::string> folders)
+std::size_t write_page(const std::string& path, std::span<const std::string> folders,
+                       const Json& room)
 {
     check_viewer();
     const std::vector<std::string> names = names_of(folders);
     Json bakes = Json::array();
     for (std::size_t i = 0; i < folders.size(); ++i)
         bakes.push_back(page_data(folders[i], names[i]));
+    if (!room.is_null())
+        bakes.front()["room"] = room;
     std::string page(page_frame());
     replace(page, "/*style*/", page_style());
     replace(page, "/*viewer*/", page_viewer());

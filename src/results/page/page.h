@@ -16,8 +16,10 @@ void check_viewer();
 Json page_data(const std::string& folder, const std::string& name);
 
 /// Writes one self-contained HTML file. folders: one finished bake, or two to show side by side.
+/// room: of room_data() for the first, or null.
 /// Returns the file's size [bytes]. Throws Error{input} for a folder whose files cannot be read,
 /// and if check_viewer() throws; Error{output} if the page cannot be written.
-std::size_t write_page(const std::string& path, std::span<const std::string> folders);
+std::size_t write_page(const std::string& path, std::span<const std::string> folders,
+                       const Json& room = {});
 
 }  // namespace lumel

@@ -69,6 +69,28 @@ TEST(LightMeter, UnderADiscGetsItsEmissionTimesTheFormFactor)
     expect_within(room.read({{0.0f, 0.8f, 0.0f}}), 1000.0 * factor);
 }
 
+// A ceiling of albedo 0.5, lit by one lamp to a quarter, is the light of both above the panels.
+TEST(LightMeter, ReadsLampsApart)
+{
+    const Quad small = panel({-0.3f, 2.5f, -0.2f}, 1.0f, 0.7f, 0.0f, 2000.0f);
+    const Quad far = panel({-1.5f, 2.4f, -0.2f}, 0.5f, 0.5f, 0.0f, 3000.0f);
+    const Quad ceiling = panel({-40.0f, 3.0f, -40.0f}, 80.0f, 80.0f, 0.5f);
+    const MeteredRoom room({black_floor(), small, far, ceiling}, 400.0f, kNothingElse);
+    const MeterPoint point{{0.0f, 0.8f, 0.0f}};
+    const double of_small = corner_factor(0.7, 0.5, 1.7) + corner_factor(0.3, 0.5, 1.7) +
+                            corner_factor(0.7, 0.2, 1.7) + corner_factor(0.3, 0.2, 1.7);
+    const double of_far = corner_factor(1.5, 0.3, 1.6) - corner_factor(1.0, 0.3, 1.6) +
+                          corner_factor(1.5, 0.2, 1.6) - corner_factor(1.0, 0.2, 1.6);
+    const double seen = 4.0 * corner_factor(40.0, 40.0, 2.2) - of_small - of_far;
+    const std::vector<double> lamps = room.read_lamps(point, {0.25f, 0.75f});
+    ASSERT_EQ(lamps.size(), 2u);
+    const double reflected = 0.5 * 400.0 * seen;
+    EXPECT_NEAR(lamps[0], 2000.0 * of_small + 0.25 * reflected, kAccuracy * lamps[0]);
+    EXPECT_NEAR(lamps[1], 3000.0 * of_far + 0.75 * reflected, kAccuracy * lamps[1]);
+    const double all = room.read(point).lux;
+    EXPECT_NEAR(lamps[0] + lamps[1], all, 1e-6 * all);
+}
+
 TEST(LightMeter, UnderARectangleGetsItsEmissionTimesTheFormFactor)
 {
     const Quad lamp = panel({-0.3f, 2.5f, -0.2f}, 1.0f, 0.7f, 0.0f, 2000.0f);

@@ -51,6 +51,18 @@ public:
         return meter.read(point, 0);
     }
 
+    /// [lamps] shares: of each lamp in the light of all lumels.
+    std::vector<double> read_lamps(const MeterPoint& point, const std::vector<float>& shares) const
+    {
+        const RayScene rays(made_.scene);
+        const LightMeter meter(made_.scene, rays, atlas_, made_.lumels, irradiance_,
+                               {.samples = kManyRays});
+        LampShares lamps{.lamps = find_lamps(made_.scene, made_.lumels, meter.sources(), {})};
+        for (const float share : shares)
+            lamps.of_lumels.emplace_back(irradiance_.size(), glm::vec3(share));
+        return meter.read_lamps(point, 0, lamps);
+    }
+
     ProbeLight probe(const glm::vec3& position, std::uint32_t samples = kManyRays) const
     {
         const RayScene rays(made_.scene);

@@ -59,7 +59,7 @@ function row(lamp, set) {
 }
 
 export class Lamps {
-    /** Controls for bakes with lamps. changed: called when the light has changed. */
+    /** Controls for bakes with lamps. changed: called with this when the light or the presets have changed. */
     constructor(bakes, changed) {
         this.bakes = bakes;
         this.changed = changed;
@@ -91,6 +91,7 @@ export class Lamps {
             this.presets.set(title, new Map(this.states));
             name.value = '';
             this.showPresets();
+            this.changed(this);
             this.writeAddress();
         });
         return form;
@@ -102,6 +103,7 @@ export class Lamps {
             button('×', () => {
                 this.presets.delete(name);
                 this.showPresets();
+                this.changed(this);
                 this.writeAddress();
             }, { 'aria-label': `remove preset ${name}` }))));
     }
@@ -122,7 +124,7 @@ export class Lamps {
     show(source) {
         for (const [name, { show }] of this.rows) show(this.states.get(name), source);
         apply(this.bakes, this.states);
-        this.changed();
+        this.changed(this);
     }
 
     readAddress() {

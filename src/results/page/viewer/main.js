@@ -6,6 +6,7 @@ import { colourAt, luxOf, luxText, percentText, scaleOfErrors, scaleOfLight } fr
 import { convergence, element, lineColour, summary, table, timesTable } from './facts.js';
 import { Lamps } from './lamps.js';
 import { Legend } from './legend.js';
+import { Room } from './room.js';
 import { Stage } from './stage.js';
 import { lightOver, surfaceAt } from './surface.js';
 import { walk } from './walk.js';
@@ -170,8 +171,16 @@ function addControls(stage, legend, scales) {
     byId('names').append(...stage.bakes.map(({ name }) => element('span', {}, name)));
 }
 
+// The report of the room, of the first bake.
+function addRoom([bake]) {
+    if (!bake.room) return null;
+    const room = new Room(bake);
+    byId('scene').after(room.node);
+    return room;
+}
+
 // Sliders of the lamps. A moved one shows in the next frame; the whole lightmap follows when all rest.
-function addLamps(stage, readAgain, drawAtlases) {
+function addLamps(stage, readAgain, drawAtlases, room) {
     const bakes = stage.bakes.filter(({ lamps }) => lamps.length > 0);
     if (bakes.length === 0) {
         say('The lamps cannot be dimmed: this browser cannot draw into textures of floating-point numbers.');
@@ -183,7 +192,8 @@ function addLamps(stage, readAgain, drawAtlases) {
         if (changed) readAgain();
         changed = false;
     };
-    const lamps = new Lamps(bakes, () => {
+    const lamps = new Lamps(bakes, ({ states, presets }) => {
+        room?.show(states, presets);
         changed = true;
         stage.draw();
         clearTimeout(later);
@@ -212,7 +222,8 @@ async function open() {
     addControls(stage, legend, scales);
     const readAgain = readUnderMouse(stage, legend);
     const drawAtlases = addAtlases(bakes, scales.lux, legend);
-    if (packed.some(({ lamps }) => lamps)) addLamps(stage, readAgain, drawAtlases);
+    const room = addRoom(packed);
+    if (packed.some(({ lamps }) => lamps)) addLamps(stage, readAgain, drawAtlases, room);
     stage.drawNow();
     document.documentElement.dataset.state = 'ready';
 }

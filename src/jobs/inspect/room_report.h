@@ -1,0 +1,34 @@
+#pragma once
+// lumel report --en12464: illuminance on the work plane of a room, by lamps, against a standard.
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "base/json/json_view.h"
+#include "jobs/solve/bake_options.h"
+#include "results/measure/work_places.h"
+
+namespace lumel {
+
+struct RoomOptions {
+    std::string use;                              ///< name of a RoomUse
+    std::optional<double> height;                 ///< y [m]; default: the use's above the room
+    std::optional<std::array<double, 4>> bounds;  ///< min x, z, max x, z [m]; default: the scene's
+    std::optional<std::array<double, 4>> task;    ///< task area [m]; default: nearly all
+    double maintenance = 0.8;                     ///< maintained / new illuminance
+    std::optional<double> illuminance;            ///< required of the task [lx]; default: the use's
+    std::optional<double> uniformity;             ///< default: the use's
+    std::uint32_t samples = LightMeterOptions{}.samples;
+};
+
+/// Measures in the folder of a bake; data for viewer/room.js. With lamps.json in the folder,
+/// illuminance of each lamp apart; otherwise of all light. Throws Error{input} for an unknown use,
+/// an area without points, and for lamps that the scene does not have.
+Json room_data(const std::string& folder, const RoomOptions& options,
+               const ProgressFunction& progress = {});
+
+/// What room_data() found with all lamps as baked, a line for each area.
+std::string room_text(const Json& room);
+
+}  // namespace lumel
