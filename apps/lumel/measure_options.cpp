@@ -13,7 +13,6 @@ namespace lumel {
 namespace {
 
 constexpr const char* kMeasurePlacesGroup = "Where to measure";
-constexpr int kMinSamples = 64, kMaxSamples = 1 << 24;
 
 MeasurePoint point_of(const std::string& text)
 {

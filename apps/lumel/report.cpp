@@ -26,10 +26,8 @@ int run(const ReportArguments& arguments)
     const std::string page = arguments.page.empty() ? page_in(arguments.folder) : arguments.page;
     constexpr double kMegabyte = 1e6;  // [bytes]
     Json room;
-    if (!arguments.room.use.empty()) {
-        check_viewer();
+    if (!arguments.room.use.empty())
         room = room_data(arguments.folder, arguments.room);
-    }
     const std::size_t size = write_page(page, folders, room);
     fmt::print("{}{}: {:.1f} MB\n", room.is_null() ? "" : room_text(room), page,
                double(size) / kMegabyte);

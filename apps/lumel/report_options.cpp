@@ -10,7 +10,6 @@ namespace {
 
 constexpr const char* kRoomGroup = "Report of a room by EN 12464-1";
 constexpr double kMostLux = 1e5;
-constexpr int kMinSamples = 64, kMaxSamples = 1 << 24;
 
 void add_room(Command& command, RoomOptions& room)
 {

@@ -18,8 +18,9 @@ inline constexpr const char* kProgramGroup = "Device and messages";
 
 inline constexpr int kLargestAtlas = 16384;  ///< side that common devices offer [texels]
 inline constexpr int kMaxFrames = 100'000, kMaxAnimations = 1'000'000;
-inline constexpr double kMaxErrorPercent = 100.0;  ///< of bakes between frames
-inline constexpr double kMaxFps = 1000.0;          ///< pictures a second
+inline constexpr int kMinSamples = 64, kMaxSamples = 1 << 24;  ///< of a light meter
+inline constexpr double kMaxErrorPercent = 100.0;              ///< of bakes between frames
+inline constexpr double kMaxFps = 1000.0;                      ///< pictures a second
 inline constexpr int kMaxShots = 2'000'000'000;
 inline constexpr int kMaxPaths = 100'000'000;
 

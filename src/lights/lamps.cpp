@@ -113,22 +113,10 @@ std::vector<std::uint32_t> join(const Scene& scene, const std::vector<LightSourc
     return lamp_of;
 }
 
-}  // namespace
-
-LampTable find_lamps(const Scene& scene, const Lumels& lumels, const LightSources& sources,
-                     std::span<const LampGroup> groups)
+/// Sets the lamp of each source that is sampled. all: by name; lamp_of [all].
+void assign_sources(const LightSources& sources, const std::vector<LightSource>& all,
+                    const std::vector<std::uint32_t>& lamp_of, LampTable& lamps)
 {
-    const std::vector<LightSource> all = all_sources(scene, lumels, sources);
-    if (all.empty())
-        throw Error(ErrorKind::input, "--per-lamp", "needs a lamp, and the scene has none");
-    check_groups(all, groups);
-    LampTable lamps;
-    const std::vector<std::uint32_t> lamp_of = join(scene, all, groups, lamps.all);
-    if (lamps.all.size() > kMaxLamps)
-        throw Error(ErrorKind::input, "--per-lamp",
-                    fmt::format("keeps at most {} lamps apart, and the scene has {}; join some by "
-                                "--group NAME=PATTERN",
-                                kMaxLamps, lamps.all.size()));
     for (std::size_t s = 0; s < sources.count(); ++s) {
         const LightSources::SourceInfo info = sources.origin(s);
         const auto is_of = [&](const LightSource& one) {
@@ -149,6 +137,43 @@ LampTable find_lamps(const Scene& scene, const Lumels& lumels, const LightSource
     const auto sky = std::ranges::find_if(all, &LightSource::sky);
     if (sky != all.end())
         lamps.of_dim_sky = lamp_of[std::size_t(sky - all.begin())];
+}
+
+}  // namespace
+
+LampTable find_lamps(const Scene& scene, const Lumels& lumels, const LightSources& sources,
+                     std::span<const LampGroup> groups)
+{
+    const std::vector<LightSource> all = all_sources(scene, lumels, sources);
+    if (all.empty())
+        throw Error(ErrorKind::input, "--per-lamp", "needs a lamp, and the scene has none");
+    check_groups(all, groups);
+    LampTable lamps;
+    const std::vector<std::uint32_t> lamp_of = join(scene, all, groups, lamps.all);
+    if (lamps.all.size() > kMaxLamps)
+        throw Error(ErrorKind::input, "--per-lamp",
+                    fmt::format("keeps at most {} lamps apart, and the scene has {}; join some by "
+                                "--group NAME=PATTERN",
+                                kMaxLamps, lamps.all.size()));
+    assign_sources(sources, all, lamp_of, lamps);
+    return lamps;
+}
+
+LampTable find_lamps(const Scene& scene, const Lumels& lumels, const LightSources& sources,
+                     std::vector<NamedLamp> listed, const std::string& file)
+{
+    const std::vector<LightSource> all = all_sources(scene, lumels, sources);
+    std::vector<std::uint32_t> lamp_of;
+    for (const LightSource& source : all) {
+        const auto lamp = std::ranges::find_if(listed, [&](const NamedLamp& one) {
+            return std::ranges::find(one.members, source.name) != one.members.end();
+        });
+        if (lamp == listed.end())
+            throw Error(ErrorKind::input, file, "has no lamp \"" + source.name + "\" of the scene");
+        lamp_of.push_back(std::uint32_t(lamp - listed.begin()));
+    }
+    LampTable lamps{.all = std::move(listed)};
+    assign_sources(sources, all, lamp_of, lamps);
     return lamps;
 }
 

@@ -39,4 +39,9 @@ struct LampTable {
 LampTable find_lamps(const Scene& scene, const Lumels& lumels, const LightSources& sources,
                      std::span<const LampGroup> groups);
 
+/// Lamps of a scene, joined as in a list: each of light_sources() is of the lamp that has its name
+/// among its members. file: that has the list. Throws Error{input} if a source is in none.
+LampTable find_lamps(const Scene& scene, const Lumels& lumels, const LightSources& sources,
+                     std::vector<NamedLamp> listed, const std::string& file);
+
 }  // namespace lumel

@@ -1,108 +1,82 @@
 #include "jobs/inspect/room_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <string>
 
 #include <fmt/format.h>
 
+#include "atlas/lumels/sides.h"
 #include "base/core/parallel.h"
 #include "base/json/json_file.h"
 #include "jobs/edit/finished_bake.h"
-#include "jobs/solve/stages.h"
+#include "lights/light_sources.h"
 #include "results/page/lamp_list.h"
 #include "results/page/whole_map.h"
 
 namespace lumel {
 namespace {
 
-/// Points per progress report, and minimum per task.
-constexpr std::size_t kPointsPerStep = 64, kPointsPerTask = 1;
-/// Margin of the scene's bounds as bounds of a room: surfaces lie in them [m].
-constexpr double kRounding = 1e-3;
+namespace fs = std::filesystem;
+
+/// Illuminance from here on is told in whole lux, below in three digits.
+constexpr double kWholeLux = 100.0;
+constexpr double kHundredths = 100.0;
 
 FloorArea area_of(const std::array<double, 4>& corners)
 {
     return {{corners[0], corners[1]}, {corners[2], corners[3]}};
 }
 
-/// The pattern that fits a name alone, see fnmatch(3).
-std::string pattern_of(const std::string& name)
+/// Light of the lamps on a lumel as shares of the bake's, from their maps; where these are dark,
+/// shares of the whole bake. A back without texels of its own has the shares of its front.
+std::vector<std::vector<glm::vec3>> shares_of(const std::string& folder, const Pages& pages,
+                                              const std::vector<ListedLamp>& listed,
+                                              const Lumels& lumels)
 {
-    std::string pattern;
-    for (const char letter : name) {
-        if (letter == '*' || letter == '?' || letter == '[' || letter == '\\')
-            pattern += '\\';
-        pattern += letter;
-    }
-    return pattern;
-}
-
-std::vector<LampGroup> groups_of(const std::vector<ListedLamp>& lamps)
-{
-    std::vector<LampGroup> groups;
-    for (const ListedLamp& lamp : lamps)
-        if (lamp.kind == "group")
-            for (const std::string& member : lamp.members)
-                groups.push_back({lamp.name, pattern_of(member)});
-    return groups;
-}
-
-/// Light of lamps as shares of the bake's: what their maps say of a texel holds for both sides.
-void add_shares(const std::string& folder, const Pages& pages,
-                const std::vector<ListedLamp>& listed, const Lumels& lumels, LampShares& shares)
-{
-    std::vector<glm::vec3> sum(lumels.lumels.size(), glm::vec3(0.0f));
-    shares.of_lumels.assign(listed.size(), sum);
+    const std::size_t count = lumels.lumels.size();
+    std::vector<glm::vec3> sum(count, glm::vec3(0.0f));
+    std::vector<std::vector<glm::vec3>> lamps(listed.size(), sum);
+    std::vector<glm::dvec3> of_all(listed.size(), glm::dvec3(0.0));
+    glm::dvec3 all(0.0);
     for (std::size_t k = 0; k < listed.size(); ++k) {
         const Image map = whole_map(folder, pages, listed[k].map);
         if (map.width != lumels.width || map.height != lumels.height)
-            throw Error(ErrorKind::input, listed[k].map, "has another size than the bake");
-        for (std::size_t i = 0; i < sum.size(); ++i) {
-            const float* const texel = &map.values[4 * std::size_t(lumels.lumels[i].texel)];
-            shares.of_lumels[k][i] = glm::max(glm::vec3(texel[0], texel[1], texel[2]), 0.0f);
-            sum[i] += shares.of_lumels[k][i];
+            throw Error(ErrorKind::input, (fs::path(folder) / listed[k].map).string() + ".exr",
+                        "has another size than the bake");
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t texel = map_texel(lumels, lumels.lumels[i]);
+            const float* const light = &map.values[4 * texel];
+            lamps[k][i] = glm::max(glm::vec3(light[0], light[1], light[2]), 0.0f);
+            sum[i] += lamps[k][i];
+            of_all[k] += glm::dvec3(lamps[k][i]);
         }
+        all += of_all[k];
     }
-    for (std::vector<glm::vec3>& lamp : shares.of_lumels)
-        for (std::size_t i = 0; i < sum.size(); ++i)
+    for (std::size_t k = 0; k < listed.size(); ++k)
+        for (std::size_t i = 0; i < count; ++i)
             for (int c = 0; c < 3; ++c)
-                lamp[i][c] = sum[i][c] > 0.0f ? lamp[i][c] / sum[i][c] : 0.0f;
+                lamps[k][i][c] = sum[i][c] > 0.0f ? lamps[k][i][c] / sum[i][c]
+                                 : all[c] > 0.0   ? float(of_all[k][c] / all[c])
+                                                  : 0.0f;
+    return lamps;
 }
 
 /// Lamps of lamps.json, in its order.
-LampShares shares_of(const std::string& folder, const FinishedBake& bake, const LightMeter& meter)
+LampShares lamps_in(const std::string& folder, const SolveScene& scene, const LightMeter& meter)
 {
-    const std::string file = (std::filesystem::path(folder) / kLampsFile).string();
-    const Pages pages =
-        pages_in(folder, read_json((std::filesystem::path(folder) / kReportFile).string()));
+    const std::string file = (fs::path(folder) / kLampsFile).string();
+    const Pages pages = pages_in(folder, read_json((fs::path(folder) / kReportFile).string()));
     const Json document = read_json(file);
-    const std::vector<ListedLamp> listed = lamps_of(JsonView(file, document), pages.count);
-    const std::vector<LampGroup> groups = groups_of(listed);
-    const SolveScene& scene = bake.prepared;
-    LampShares shares{.lamps = find_lamps(scene.scene, scene.lumels, meter.sources(), groups)};
-    std::vector<std::uint32_t> place;  // in the list
-    for (const NamedLamp& lamp : shares.lamps.all) {
-        const auto at = std::ranges::find(listed, lamp.name, &ListedLamp::name);
-        if (at == listed.end() || shares.lamps.all.size() != listed.size())
-            throw Error(ErrorKind::input, file, "lists other lamps than the scene has");
-        place.push_back(std::uint32_t(at - listed.begin()));
-    }
-    std::vector<NamedLamp> all(listed.size());
-    for (std::size_t k = 0; k < all.size(); ++k)
-        all[place[k]] = shares.lamps.all[k];
-    shares.lamps.all = std::move(all);
-    for (std::uint32_t& lamp : shares.lamps.of_source)
-        lamp = place[lamp];
-    shares.lamps.of_dim_sky = place[shares.lamps.of_dim_sky];
-    add_shares(folder, pages, listed, scene.lumels, shares);
-    return shares;
+    const JsonView view(file, document);
+    const std::vector<ListedLamp> listed = lamps_of(view, pages.count);
+    std::vector<NamedLamp> named;
+    for (const ListedLamp& lamp : listed)
+        named.push_back({lamp.name, lamp.members, lamp.kind});
+    return {find_lamps(scene.scene, scene.lumels, meter.sources(), std::move(named), file),
+            shares_of(folder, pages, listed, scene.lumels)};
 }
-
-/// Readings at a point.
-struct PlaceReading {
-    Reading all;
-    std::vector<double> lamps;  ///< [lamps] [lx]
-};
 
 class RoomMeter {
 public:
@@ -111,18 +85,18 @@ public:
           meter_(bake.prepared.scene, bake.prepared.rays, bake.prepared.atlas, bake.prepared.lumels,
                  bake.irradiance, {.samples = samples, .seed = seed_of(bake.record.solver.method)})
     {
-        if (std::filesystem::exists(std::filesystem::path(folder) / kLampsFile))
-            shares_ = shares_of(folder, bake, meter_);
+        if (fs::exists(fs::path(folder) / kLampsFile))
+            shares_ = lamps_in(folder, bake.prepared, meter_);
     }
 
-    PlaceReading read(const glm::dvec3& place, std::uint32_t number) const
+    /// place: world of the file [m]. number: of the point.
+    LampReadings read(const glm::dvec3& place, std::uint32_t number) const
     {
         const MeterPoint point{.position = glm::vec3(place - origin_)};
-        PlaceReading reading{.all = meter_.read(point, number)};
-        if (!reading.all.inside)
-            reading.lamps = shares_ ? meter_.read_lamps(point, number, *shares_)
-                                    : std::vector<double>{reading.all.lux};
-        return reading;
+        if (shares_)
+            return meter_.read_lamps(point, number, *shares_);
+        const Reading reading = meter_.read(point, number);
+        return {{reading.lux}, reading.inside};
     }
 
 private:
@@ -144,117 +118,136 @@ const char* name_of(RoomArea area)
     return "";
 }
 
-/// Points, and the illuminance of each lamp at them.
-Json json_of(const AreaPoints& area, const AreaLimits& limits,
-             std::span<const PlaceReading> readings)
+AreaLimits limits_of(RoomArea area, const AreaLimits& task)
 {
+    switch (area) {
+    case RoomArea::task:
+        return task;
+    case RoomArea::surrounding:
+        return surrounding_limits(task.illuminance);
+    case RoomArea::background:
+        return background_limits(task.illuminance);
+    }
+    return {};
+}
+
+/// Points in the open air with their cells, and the illuminance of each lamp at them.
+Json measured(const AreaPoints& area, const AreaLimits& task, double height, const RoomMeter& meter)
+{
+    std::vector<LampReadings> readings(area.points.size());
+    parallel_for(readings.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const glm::dvec2& at = area.points[i].at;
+            readings[i] = meter.read({at.x, height, at.y}, std::uint32_t(i));
+        }
+    });
     Json places = Json::array(), lux = Json::array();
     for (std::size_t i = 0; i < readings.size(); ++i) {
-        if (readings[i].all.inside)
+        if (readings[i].inside)
             continue;
-        places.push_back({area.places[i].x, area.places[i].z});
+        const AreaPoint& point = area.points[i];
+        places.push_back({point.at.x, point.at.y, point.cell.x, point.cell.y});
         Json of_lamps = Json::array();
-        for (const double lamp : readings[i].lamps)
+        for (const double lamp : readings[i].lux)
             of_lamps.push_back(shortest(float(lamp)));
         lux.push_back(std::move(of_lamps));
     }
+    const AreaLimits limits = limits_of(area.area, task);
     return {{"name", name_of(area.area)},      {"illuminance", limits.illuminance},
-            {"uniformity", limits.uniformity}, {"cell", {area.cell.x, area.cell.y}},
+            {"uniformity", limits.uniformity}, {"spacing", area.spacing},
             {"places", std::move(places)},     {"lux", std::move(lux)}};
 }
 
-FloorArea room_of(const RoomOptions& options, const SolveScene& scene)
+FloorArea bounds_of(const SolveScene& scene)
 {
-    if (options.bounds)
-        return area_of(*options.bounds);
     const glm::dvec3 low = glm::dvec3(scene.rays.low()) + scene.scene.origin;
     const glm::dvec3 high = glm::dvec3(scene.rays.high()) + scene.scene.origin;
-    return {glm::dvec2(low.x, low.z) + kRounding, glm::dvec2(high.x, high.z) - kRounding};
+    return {{low.x, low.z}, {high.x, high.z}};
+}
+
+/// True if the scene has a sky or a sun.
+bool has_daylight(const SolveScene& scene)
+{
+    return std::ranges::any_of(
+        light_sources(scene.scene, scene.lumels), [&](const LightSource& source) {
+            return source.sky || std::ranges::any_of(source.lights, [&](std::uint32_t light) {
+                       return scene.scene.lights[light].kind == PunctualLight::Kind::directional;
+                   });
+        });
+}
+
+/// As the page tells it, and judges by it.
+double told_lux(double lux)
+{
+    return lux >= kWholeLux ? std::round(lux) : std::stod(fmt::format("{:.3g}", lux));
+}
+
+double told_uniformity(double uniformity)
+{
+    return std::round(kHundredths * uniformity) / kHundredths;
+}
+
+std::string line_of(const Json& area, double maintenance)
+{
+    const std::string name = area["name"].get<std::string>();
+    if (area["lux"].empty())
+        return name + ": no point in the open air, not measured\n";
+    std::vector<Reading> readings;
+    for (const Json& of_lamps : area["lux"]) {
+        readings.emplace_back();
+        for (const Json& lux : of_lamps)
+            readings.back().lux += lux.get<double>();
+    }
+    const PlaneFigures found = figures_of(readings);
+    const double lux = told_lux(maintenance * found.mean),
+                 wanted = told_lux(area["illuminance"].get<double>()),
+                 uniformity = told_uniformity(found.uniformity),
+                 even = told_uniformity(area["uniformity"].get<double>());
+    const auto verdict = [](bool is_met) { return is_met ? "met" : "not met"; };
+    return fmt::format(
+        "{}: {} points, maintained {:g} lx of {:g} ({}), uniformity {:.2f} of {:.2f} ({})\n", name,
+        found.count, lux, wanted, verdict(lux >= wanted), uniformity, even,
+        verdict(uniformity >= even));
 }
 
 }  // namespace
 
-Json room_data(const std::string& folder, const RoomOptions& options,
-               const ProgressFunction& progress)
+Json room_data(const std::string& folder, const RoomOptions& options)
 {
     const RoomUse& use = room_use_named(options.use);
-    Stages stages(progress);
-    stages.begin("reading");
     const FinishedBake bake(folder);
     const SolveScene& scene = bake.prepared;
-    const FloorArea room = room_of(options, scene);
+    const FloorArea room = options.bounds ? area_of(*options.bounds) : bounds_of(scene);
     std::optional<FloorArea> task;
     if (options.task)
         task = area_of(*options.task);
+    const std::vector<AreaPoints> areas = points_in_areas(room, task ? &*task : nullptr);
     const double floor = double(scene.rays.low().y) + scene.scene.origin.y;
     const double height = options.height.value_or(floor + use.height);
-    const std::vector<AreaPoints> areas = points_in_areas(room, task ? &*task : nullptr, height);
-
-    stages.begin("rays");
+    const AreaLimits limits{options.illuminance.value_or(use.illuminance),
+                            options.uniformity.value_or(use.uniformity)};
     const RoomMeter meter(folder, bake, options.samples);
-    std::vector<glm::dvec3> places;
+    Json measured_areas = Json::array();
     for (const AreaPoints& area : areas)
-        places.insert(places.end(), area.places.begin(), area.places.end());
-    std::vector<PlaceReading> readings(places.size());
-    const bool done = parallel_steps(
-        places.size(), kPointsPerStep, kPointsPerTask,
-        [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i)
-                readings[i] = meter.read(places[i], std::uint32_t(i));
-        },
-        [&](std::size_t count) { return stages.progress(double(count) / double(places.size())); });
-    if (!done)
-        throw_stopped();
-
-    const AreaLimits of_task{options.illuminance.value_or(use.illuminance),
-                             options.uniformity.value_or(use.uniformity)};
-    Json rows = Json::array();
-    std::size_t first = 0;
-    for (const AreaPoints& area : areas) {
-        const AreaLimits limits = area.area == RoomArea::task ? of_task
-                                  : area.area == RoomArea::surrounding
-                                      ? surrounding_limits(of_task.illuminance)
-                                      : background_limits(of_task.illuminance);
-        rows.push_back(
-            json_of(area, limits, std::span(readings).subspan(first, area.places.size())));
-        first += area.places.size();
-    }
-    if (rows.front()["places"].empty())
+        measured_areas.push_back(measured(area, limits, height, meter));
+    if (measured_areas.front()["places"].empty())
         throw Error(ErrorKind::input, "--en12464",
                     "finds no point of the task area in the open air; use --plane and --bounds");
-    stages.end();
-    return {{"use", use.name},
-            {"title", use.title},
+    return {{"title", use.title},
             {"maintenance", options.maintenance},
             {"height", height},
             {"room", {room.low.x, room.low.y, room.high.x, room.high.y}},
-            {"has_own_task", task.has_value()},
-            {"areas", rows}};
+            {"has_daylight", has_daylight(scene)},
+            {"areas", std::move(measured_areas)}};
 }
 
 std::string room_text(const Json& room)
 {
     std::string text;
-    const double maintenance = room["maintenance"].get<double>();
-    for (const Json& area : room["areas"]) {
-        std::vector<Reading> readings;
-        for (const Json& of_lamps : area["lux"]) {
-            readings.emplace_back();
-            for (const Json& lux : of_lamps)
-                readings.back().lux += lux.get<double>();
-        }
-        const PlaneFigures found = figures_of(readings);
-        const auto verdict = [&](double is, const char* wanted) {
-            return is >= area[wanted].get<double>() ? "met" : "not met";
-        };
-        text +=
-            fmt::format("{}: {} points, maintained {:.4g} lx of {:.4g} ({}), uniformity {:.2f} of "
-                        "{:.2f} ({})\n",
-                        area["name"].get<std::string>(), found.count, maintenance * found.mean,
-                        area["illuminance"].get<double>(),
-                        verdict(maintenance * found.mean, "illuminance"), found.uniformity,
-                        area["uniformity"].get<double>(), verdict(found.uniformity, "uniformity"));
-    }
+    for (const Json& area : room["areas"])
+        text += line_of(area, room["maintenance"].get<double>());
+    if (room["has_daylight"].get<bool>())
+        text += "the light of sky and sun is counted as that of lamps is\n";
     return text;
 }
 

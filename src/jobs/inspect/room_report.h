@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/json/json_view.h"
-#include "jobs/solve/bake_options.h"
+#include "results/measure/light_meter.h"
 #include "results/measure/work_places.h"
 
 namespace lumel {
@@ -24,9 +24,8 @@ struct RoomOptions {
 
 /// Measures in the folder of a bake; data for viewer/room.js. With lamps.json in the folder,
 /// illuminance of each lamp apart; otherwise of all light. Throws Error{input} for an unknown use,
-/// an area without points, and for lamps that the scene does not have.
-Json room_data(const std::string& folder, const RoomOptions& options,
-               const ProgressFunction& progress = {});
+/// a task area without points in the open air, and a lamps.json without all lamps of the scene.
+Json room_data(const std::string& folder, const RoomOptions& options);
 
 /// What room_data() found with all lamps as baked, a line for each area.
 std::string room_text(const Json& room);

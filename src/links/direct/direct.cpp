@@ -15,39 +15,18 @@
 #include "base/core/luminance.h"
 #include "base/core/parallel.h"
 #include "lights/source_estimate.h"
-#include "links/direct/deviation.h"
+#include "links/direct/found_light.h"
 #include "rays/paths/samples.h"
 
 namespace lumel {
 namespace {
 
-constexpr std::size_t kBlock = 256, kBlocksPerPass = 64;
-/// Rays of one half per source: of all lumels, and of those that see part of a source;
-/// kTimesToSmall × as many to small sources, whose shadows are sharp.
-constexpr std::uint32_t kFewRays = 8, kManyRays = 16, kTimesToSmall = 2;
+/// To small sources, whose shadows are sharp, this many times kFewRays or kManyRays go.
+constexpr std::uint32_t kTimesToSmall = 2;
 /// Sources whose sampling weight is below this fraction of a lumel's total share their rays.
 constexpr float kOwnRays = 1.0f / 16.0f;
 /// Maximum number of times that the rays of a source are halved, relative to the strongest source.
 constexpr std::uint32_t kMaxHalved = 3;
-/// Light is stored per cell if cells differ by more than kDiffers × the brightest cell, and by more
-/// than kCounts × the mean of all lumels.
-constexpr float kDiffers = 0.25f, kCounts = 0.01f;
-
-/// Neighbours on each side in the order of lumels that are compared for the sources they see.
-constexpr std::size_t kComparedNeighbours = 4;
-/// Maximum rays of one half to a source, and maximum growth per pass.
-constexpr std::uint32_t kMaxShadowRays = kManyRays << 13, kMaxTimes = 16;
-/// Passes must reduce the variance to this fraction: those that gain less are not worth their rays.
-constexpr double kMinGain = 0.9;
-/// Passes with less growth are skipped.
-constexpr double kMinTimes = 1.41;
-/// Bisection steps for the number of rays that a variance needs, and the search range beyond the
-/// point where the most uncertain lumel has the maximum number of rays.
-constexpr int kSearchSteps = 24;
-constexpr double kWidestSearch = 1e3;
-/// Halves are uncertain if they differ by more than kUncertain × their mean, and by more than
-/// kUncertainOfAll × the mean of all lumels.
-constexpr double kUncertain = 0.02, kUncertainOfAll = 0.01;
 
 /// Maximum number of sources sampled by a point that is not a lumel.
 constexpr std::uint32_t kMaxSought = 2;
@@ -59,30 +38,6 @@ constexpr std::uint32_t kManyStream = 0x10000;
 constexpr std::uint32_t kLumelPair = 0, kLampChoicePair = 1, kLampPair = 2;
 
 }  // namespace
-
-/// Direct light of a lumel: in two halves, and by cell.
-struct DirectEstimator::OfLumel {
-    glm::vec3 half[2] = {glm::vec3(0.0f), glm::vec3(0.0f)};
-    OfCells cells{};
-
-    void add(const OfLumel& other)
-    {
-        for (int h = 0; h < 2; ++h)
-            half[h] += other.half[h];
-        for (std::size_t c = 0; c < cells.size(); ++c)
-            cells[c] += other.cells[c];
-    }
-    void make_even() { cells.fill(0.5f * (half[0] + half[1])); }
-};
-
-struct DirectEstimator::Found {
-    OfLumel light;
-    std::vector<OfLumel> of_lamps;
-    std::uint32_t seen = 0;
-    bool uncertain = false;
-    bool exact = true;  ///< unoccluded light of all sources is known exactly
-    std::uint64_t rays = 0;
-};
 
 /// Rays from a lumel to one source, or to several that share them: those of half 0, then half 1.
 struct DirectEstimator::Group {
@@ -407,82 +362,6 @@ void DirectEstimator::find(const std::vector<std::uint32_t>& lumels, std::size_t
     }
 }
 
-/// True if the light of cells differs significantly.
-bool DirectEstimator::differ(const OfCells& cells)
-{
-    const auto by_light = [](const glm::vec3& one, const glm::vec3& other) {
-        return luminance(one) < luminance(other);
-    };
-    const auto [least, most] = std::minmax_element(cells.begin(), cells.end(), by_light);
-    return luminance(*most) - luminance(*least) > double(kDiffers) * luminance(*most);
-}
-
-/// Keeps light by cell where it varies. Across a cut, cells of other lamps can be equally bright.
-void DirectEstimator::keep_by_cell(std::uint32_t i, const Found& found, float before,
-                                   Block& block) const
-{
-    const auto mixed = [&](const OfCells& cells, const auto& light_before) {
-        OfCells result;
-        for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
-            result[c] = before * light_before(c) + (1.0f - before) * cells[c];
-        return result;
-    };
-    const OfCells cells = mixed(found.light.cells, [&](std::uint32_t c) { return at(i, c); });
-    const bool any = differ(cells);
-    if (any) {
-        block.light.lumel.push_back(i);
-        block.light.cells.insert(block.light.cells.end(), cells.begin(), cells.end());
-    }
-    if (lamps_ == 0 || (!any && !is_cut(i)))
-        return;
-    std::vector<OfCells> of_lamps;
-    for (std::size_t lamp = 0; lamp < lamps_; ++lamp)
-        of_lamps.push_back(mixed(found.of_lamps[lamp].cells, [&](std::uint32_t c) {
-            return varies_by_lamp(i) ? lamps_in(i, c)[lamp] : mean_of_lamp(i, lamp);
-        }));
-    if (!any && std::ranges::none_of(of_lamps, differ))
-        return;
-    block.of_lamps.lumel.push_back(i);
-    for (std::size_t c = 0; c < std::size_t(kCells); ++c)
-        for (const OfCells& cells_of_lamp : of_lamps)
-            block.of_lamps.cells.push_back(cells_of_lamp[c]);
-}
-
-/// Stores the results of lumel i: the mean over its passes of many rays, weighted by rays.
-void DirectEstimator::keep(std::uint32_t i, const Found& found, Block& block)
-{
-    const std::uint32_t taken = taken_[i], more = more_[i];
-    const float before = taken > 0 ? float(taken) / float(taken + more) : 0.0f;
-    keep_by_cell(i, found, before, block);
-    for (int h = 0; h < 2; ++h) {
-        half_[h][i] = before * half_[h][i] + (1.0f - before) * found.light.half[h];
-        for (std::size_t lamp = 0; lamp < lamps_; ++lamp) {
-            glm::vec3& half = lamp_half_[h][i * lamps_ + lamp];
-            half = before * half + (1.0f - before) * found.of_lamps[lamp].half[h];
-        }
-    }
-    taken_[i] += more;
-    if (first_pass_) {
-        uncertain_[i] = found.uncertain;
-        seen_[i] = found.seen;
-    }
-    block.rays += found.rays;
-}
-
-bool DirectEstimator::ByCell::fits(std::size_t lumels) const
-{
-    const auto has_cells = [&](std::uint32_t at) {
-        return at == kSame || (at + std::size_t(1)) * size() <= cells.size();
-    };
-    return index.size() == lumels && std::ranges::all_of(index, has_cells);
-}
-
-bool DirectEstimator::FoundCells::fits(std::size_t lumels, std::size_t kinds) const
-{
-    return cells.size() == kCells * kinds * lumel.size() &&
-           std::ranges::all_of(lumel, [&](std::uint32_t i) { return i < lumels; });
-}
-
 bool DirectEstimator::fits() const
 {
     const std::size_t count = work_.order.size();
@@ -505,215 +384,6 @@ std::uint64_t DirectEstimator::bytes(std::size_t lumels, std::size_t varying, st
         2 * sizeof(glm::vec3) + 5 * sizeof(std::uint32_t) + sizeof(char);
     return lumels * (kOfLumel + lamps * 2 * sizeof(glm::vec3)) +
            (varying + lamps * varying_by_lamp) * sizeof(OfCells);
-}
-
-bool DirectEstimator::step()
-{
-    const std::vector<std::uint32_t>& list = first_pass_ ? work_.order : many_;
-    if (first_pass_ && work_.sources.count() == 0)
-        return false;
-    if (!first_pass_ && done_ == blocks_.size())
-        return false;  // no pass has begun since the last
-    const std::size_t last_block = std::min(done_ + kBlocksPerPass, blocks_.size());
-    const std::size_t grain = work_.caster().batch() / (kBlock * 2 * kFewRays);
-    parallel_for(last_block - done_, grain, [&](std::size_t first, std::size_t last) {
-        find(list, done_ + first, done_ + last);
-    });
-    done_ = last_block;
-    if (done_ < blocks_.size())
-        return true;
-
-    // End of the pass.
-    if (first_pass_)
-        mark_uncertain_hidden();
-    keep_cells();
-    const bool more = first_pass_ && !many_.empty();
-    first_pass_ = false;
-    if (more)
-        begin_pass();
-    return more;
-}
-
-void DirectEstimator::begin_pass()
-{
-    blocks_.assign((many_.size() + kBlock - 1) / kBlock, {});
-    done_ = 0;
-}
-
-/// Number of rays that lumel i should add if `rays` were optimal.
-std::uint32_t DirectEstimator::wanted(std::uint32_t i, double rays) const
-{
-    const std::uint32_t taken = taken_[i];
-    if (!(rays > kMinTimes * double(std::max(taken, kFewRays))))
-        return 0;
-    const double doubled = std::round(std::log2(std::max(rays / double(kManyRays), 1.0)));
-    const std::uint32_t most = std::min(std::max(taken, kManyRays) * kMaxTimes, kMaxShadowRays);
-    const auto all = std::uint32_t(std::min(std::exp2(doubled) * double(kManyRays), double(most)));
-    return all > taken ? all - taken : 0;
-}
-
-bool DirectEstimator::refine(double share, std::uint64_t most, const std::vector<double>& weight)
-{
-    // The variance of one ray is about the lumel's variance × its rays. The sum of variances is
-    // minimal if rays are proportional to deviations.
-    const auto rays_of = [&](std::uint32_t i) { return double(std::max(taken_[i], kFewRays)); };
-    std::vector<double> variance(work_.order.size()), square(work_.order.size());
-    double now = 0.0;
-    for (const std::uint32_t i : work_.order) {
-        const glm::vec3 apart = half_[0][i] - half_[1][i];
-        now += variance[i] = weight[i] * double(glm::dot(apart, apart));
-        square[i] = variance[i] * rays_of(i);
-    }
-    const std::vector<double> deviation =
-        deviation_nearby(square, work_.scene.lumels, work_.order, kDirectReach, 1.0);
-    const double widest = *std::max_element(deviation.begin(), deviation.end());
-    double left = 0.0;  // of the scale tried last
-    const auto enough = [&](double scale) {
-        left = 0.0;
-        std::uint64_t rays = 0;
-        for (const std::uint32_t i : work_.order) {
-            if (work_.is_buried(i))
-                continue;
-            const std::uint32_t more = wanted(i, scale * deviation[i]);
-            rays += 2 * std::uint64_t(more);
-            left += more > 0 ? variance[i] * rays_of(i) / double(taken_[i] + more) : variance[i];
-        }
-        return rays >= most || left <= share * now;
-    };
-    if (!(widest > 0.0))
-        return false;
-    double low = double(kFewRays) / widest, high = kWidestSearch * double(kMaxShadowRays) / widest;
-    for (int step = 0; step < kSearchSteps; ++step) {
-        const double middle = std::sqrt(low * high);
-        (enough(middle) ? high : low) = middle;
-    }
-    enough(high);
-    if (left > kMinGain * now)
-        return false;
-    many_.clear();
-    for (const std::uint32_t i : work_.order) {
-        more_[i] = work_.is_buried(i) ? 0 : wanted(i, high * deviation[i]);
-        if (more_[i] > 0)
-            many_.push_back(i);
-    }
-    if (many_.empty())
-        return false;
-    begin_pass();
-    return true;
-}
-
-double DirectEstimator::fraction() const
-{
-    // Few rays, then many: each pass is about half of the work.
-    const double part = blocks_.empty() ? 1.0 : double(done_) / double(blocks_.size());
-    return first_pass_ ? 0.5 * part : 0.5 + 0.5 * part;
-}
-
-double DirectEstimator::mean_of_all() const
-{
-    double mean = 0.0;
-    for (std::size_t i = 0; i < half_[0].size(); ++i)
-        mean += luminance(this->mean(i));
-    return mean / double(std::max<std::size_t>(half_[0].size(), 1));
-}
-
-/// True if the halves differ significantly.
-bool DirectEstimator::differs(std::size_t i, double mean) const
-{
-    const double apart = std::abs(luminance(half_[0][i]) - luminance(half_[1][i]));
-    return apart > kUncertain * luminance(this->mean(i)) && apart > kUncertainOfAll * mean;
-}
-
-/// Marks lumels that see part of a source, whose halves differ, or that see other sources than a
-/// neighbour on their chart: few rays miss thin shadows.
-void DirectEstimator::mark_uncertain_hidden()
-{
-    const std::vector<std::uint32_t> by_side = lumels_by_side(work_.scene.lumels);
-    const int width = work_.scene.lumels.width, height = work_.scene.lumels.height;
-    std::vector<char> needs = uncertain_;
-    const double mean = mean_of_all();
-    for (std::size_t i = 0; i < needs.size(); ++i)
-        if (differs(i, mean))
-            needs[i] = 1;
-    parallel_for(work_.lumels().size(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            const Lumel& lumel = work_.lumels()[i];
-            const int x = int(lumel.texel) % width, y = int(lumel.texel) / width;
-            for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) {
-                    if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height)
-                        continue;
-                    const std::size_t texel =
-                        std::size_t(y + dy) * std::size_t(width) + std::size_t(x + dx);
-                    const std::uint32_t other =
-                        by_side[2 * texel + (lumel.flags & kLumelBack ? 1 : 0)];
-                    if (other == kNoLumel || work_.lumels()[other].chart != lumel.chart)
-                        continue;
-                    if (uncertain_[other] || seen_[other] != seen_[i])
-                        needs[i] = 1;
-                }
-        }
-    });
-    // Charts can be small: also compares neighbours in space, which the order approximates.
-    for (std::size_t o = 0; o < work_.order.size(); ++o)
-        for (std::size_t n = o + 1; n < std::min(o + 1 + kComparedNeighbours, work_.order.size());
-             ++n) {
-            const std::uint32_t i = work_.order[o], j = work_.order[n];
-            if (uncertain_[i] || uncertain_[j] || seen_[i] != seen_[j])
-                needs[i] = needs[j] = 1;
-        }
-    for (const std::uint32_t i : work_.order)
-        if (needs[i] && !work_.is_buried(i)) {
-            many_.push_back(i);
-            more_[i] = kManyRays;
-        }
-}
-
-/// Replaces the cells of lumels of this pass by those that its blocks found. keeps(lumel, its
-/// cells): false if they are not worth it.
-template <class Keeps>
-void DirectEstimator::renew(ByCell& kept, FoundCells Block::*found, const Keeps& keeps) const
-{
-    std::vector<char> again(first_pass_ ? 0 : kept.index.size(), 0);
-    if (!first_pass_)
-        for (const std::uint32_t i : many_)
-            again[i] = 1;
-    ByCell next{kept.kinds, std::vector<std::uint32_t>(kept.index.size(), kSame), {}};
-    const auto keep = [&](std::uint32_t i, const glm::vec3* cells) {
-        if (!keeps(i, cells))
-            return;
-        next.index[i] = std::uint32_t(next.cells.size() / next.size());
-        next.cells.insert(next.cells.end(), cells, cells + next.size());
-    };
-    if (!first_pass_)
-        for (std::uint32_t i = 0; i < kept.index.size(); ++i)
-            if (kept.index[i] != kSame && !again[i])
-                keep(i, kept.of(i));
-    for (const Block& block : blocks_) {
-        const FoundCells& of_block = block.*found;
-        for (std::size_t k = 0; k < of_block.lumel.size(); ++k)
-            keep(of_block.lumel[k], &of_block.cells[k * kept.size()]);
-    }
-    kept = std::move(next);
-}
-
-/// Stores the cells that the blocks of a pass found.
-void DirectEstimator::keep_cells()
-{
-    const double mean = mean_of_all();
-    renew(by_cell_, &Block::light, [&](std::uint32_t i, const glm::vec3* cells) {
-        double most = 0.0;
-        for (const glm::vec3& cell : std::span(cells, kCells))
-            most = std::max(most, luminance(cell));
-        return most > double(kCounts) * mean || is_cut(i);
-    });
-    if (lamps_ > 0)
-        renew(lamps_by_cell_, &Block::of_lamps,
-              [&](std::uint32_t i, const glm::vec3*) { return varies(i) || is_cut(i); });
-    for (Block& block : blocks_) {
-        rays_ += block.rays;
-        block = {};
-    }
 }
 
 }  // namespace lumel

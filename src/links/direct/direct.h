@@ -92,6 +92,11 @@ public:
 
 private:
     static constexpr std::uint32_t kSame = ~0u;
+    static constexpr std::size_t kBlock = 256;  ///< lumels that are processed together
+    /// Rays of one half per source: of all lumels, and of those that see part of a source.
+    static constexpr std::uint32_t kFewRays = 8, kManyRays = 16;
+    /// Maximum rays of one half to a source, and maximum growth per pass.
+    static constexpr std::uint32_t kMaxShadowRays = kManyRays << 13, kMaxTimes = 16;
     using OfCells = std::array<glm::vec3, kCells>;
 
     struct Choice;

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "links/direct/direct_rays.h"
+#include "links/rays/tracer.h"
 #include "links/trace/source_term.h"
-#include "links/trace/tracer.h"
 
 namespace lumel {
 

@@ -26,8 +26,8 @@
 #include "links/direct/deviation.h"
 #include "links/filter/adapted_light.h"
 #include "links/filter/visible_noise.h"
+#include "links/rays/shared_directions.h"
 #include "links/trace/link_casters.h"
-#include "links/trace/shared_directions.h"
 #include "rays/paths/samples.h"
 
 namespace lumel {
@@ -272,7 +272,7 @@ void LinkRadiosity::solve()
     for (std::size_t k = 0; k < kSolutions; ++k) {
         sources_[k] = find_source_term(work_, *parts_, *numbers_, reflected, *links_[k]);
         // From the light of the first: only a residual's share of that is left.
-        if (received_[k].empty())
+        if (k > 0 && received_[k].empty())
             received_[k] = received_[0];
         factor = solver_->solve(*links_[k], sources_[k], sweep_residual(), received_[k], factor);
         sources_[k].light = std::vector<glm::vec4>();  // frees it

@@ -382,8 +382,10 @@ public:
                 // first change does not: it is all light in the first round, and noise of new rays
                 // in later ones.
                 if (!groups)
-                    factor = std::clamp(before[lane] > 0.0 ? size / before[lane] : kSlowestSweep,
-                                        least_factor, kSlowestSweep);
+                    factor = size == 0.0 ? 0.0
+                                         : std::clamp(before[lane] > 0.0 ? size / before[lane]
+                                                                         : kSlowestSweep,
+                                                      least_factor, kSlowestSweep);
                 const double to_come = groups && size > 0.0
                                            ? size + groups->correct(sent_, next_, lane)
                                            : size * factor / (1.0 - factor);

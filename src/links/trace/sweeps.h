@@ -25,8 +25,9 @@ public:
 
     /// X [P] [lx]; starts from `received` unless it is empty. residual: RMS of the light left out,
     /// relative to each sub-lumel's own. least_factor: minimum assumed factor between changes of
-    /// successive sweeps. Returns the last factor seen, for other links of the same scene: where
-    /// `received` is nearly solved, noise hides how slowly the level of the light converges. Throws
+    /// successive sweeps. Returns that of the last sweeps, 0 in the dark, for other links of the
+    /// same scene: where `received` is nearly solved, noise hides how slowly the level of the light
+    /// converges. Throws
     /// Error{input} if the light of a closed room is never absorbed.
     double solve(const LinkTable& links, const SourceTerm& source, double residual,
                  std::vector<glm::vec3>& received, double least_factor = 0.0) const;

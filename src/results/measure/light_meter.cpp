@@ -61,15 +61,16 @@ Reading LightMeter::read(const MeterPoint& point, std::uint32_t number) const
     return reading;
 }
 
-std::vector<double> LightMeter::read_lamps(const MeterPoint& point, std::uint32_t number,
-                                           const LampShares& shares) const
+LampReadings LightMeter::read_lamps(const MeterPoint& point, std::uint32_t number,
+                                    const LampShares& shares) const
 {
     const RayOrigin start = start_at(point);
     const RayAllocation allocation = light_.allocate_rays(start.position, rays_of_set_);
-    std::vector<double> lux(shares.lamps.all.size(), 0.0);
+    LampReadings readings{.lux = std::vector<double>(shares.lamps.all.size(), 0.0)};
+    std::vector<double>& lux = readings.lux;
     std::uint32_t backs = 0;
+    const double rays = double(kRaySets) * double(rays_of_set_);
     const auto add_met = [&](const MetLight& met) {
-        const double rays = double(kRaySets) * double(rays_of_set_);
         if (met.is_sky)
             lux[shares.lamps.of_dim_sky] += luminance(met.light) / rays;
         else if (met.lumel != HitLumels::kNone)
@@ -83,7 +84,8 @@ std::vector<double> LightMeter::read_lamps(const MeterPoint& point, std::uint32_
             lux[shares.lamps.of_source[source]] += luminance(light) / double(kRaySets);
         });
     }
-    return lux;
+    readings.inside = tell_of_inside(backs, rays);
+    return readings;
 }
 
 /// Calls add(met) for each ray of a set.

@@ -32,6 +32,11 @@ struct LampShares {
     std::vector<std::vector<glm::vec3>> of_lumels;  ///< [lamps][N] by channel, 0…1
 };
 
+struct LampReadings {
+    std::vector<double> lux;  ///< [lamps] illuminance [lx]
+    bool inside = false;      ///< as Reading::inside
+};
+
 /// Thread-safe.
 class LightMeter {
 public:
@@ -42,9 +47,9 @@ public:
     /// number: of the point; selects its random numbers.
     Reading read(const MeterPoint& point, std::uint32_t number) const;
 
-    /// [lamps] Illuminance at a point by each lamp [lx]; their sum is read().lux.
-    std::vector<double> read_lamps(const MeterPoint& point, std::uint32_t number,
-                                   const LampShares& shares) const;
+    /// A reading of each lamp; their sum is read().
+    LampReadings read_lamps(const MeterPoint& point, std::uint32_t number,
+                            const LampShares& shares) const;
 
     const LightSources& sources() const { return light_.sources(); }
     /// True if there is light other than the sky's.

@@ -1,7 +1,6 @@
 #include "results/measure/work_places.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/core/error.h"
@@ -34,10 +33,10 @@ constexpr RoomUse kUses[] = {
     {"till", "shops: till areas", 500, 0.6, kDesk},
     {"kitchen", "restaurants: kitchens", 500, 0.6, kDesk},
     {"waiting", "health care: waiting rooms", 200, 0.4, kDesk},
-    {"assembly-rough", "assembly work: rough", 200, 0.6, kDesk},
-    {"assembly-medium", "assembly work: medium", 300, 0.6, kDesk},
-    {"assembly-fine", "assembly work: fine", 500, 0.6, kDesk},
-    {"assembly-precision", "assembly work: precision", 750, 0.7, kDesk},
+    {"assembly-rough", "metal working, assembly: rough", 200, 0.6, kDesk},
+    {"assembly-medium", "metal working, assembly: medium", 300, 0.6, kDesk},
+    {"assembly-fine", "metal working, assembly: fine", 500, 0.6, kDesk},
+    {"assembly-precision", "metal working, assembly: precision", 750, 0.7, kDesk},
 };
 
 /// Illuminance of surroundings by that of the task [lx]: of the first row that it reaches.
@@ -54,34 +53,52 @@ constexpr double kFactor = 0.2, kBase = 5.0, kWidest = 10.0;
 /// Areas longer than this × their width are gridded by their width.
 constexpr double kLong = 2.0;
 
-FloorArea widened(const FloorArea& area, double by, const FloorArea& within)
+/// Width of the immediate surrounding area, and of the strip along walls where nothing is measured
+/// but tasks [m].
+constexpr double kStrip = 0.5;
+/// Parts of areas thinner than this have no points [m].
+constexpr double kThin = 0.1;
+/// Rounding of coordinates in files and on the command line [m].
+constexpr double kRounding = 1e-3;
+
+/// Adds points at most `spacing` apart.
+void add_points(const FloorArea& part, double spacing, std::vector<AreaPoint>& points)
 {
-    return {glm::max(area.low - by, within.low), glm::min(area.high + by, within.high)};
+    const glm::dvec2 size = part.size();
+    const double thin = std::min(size.x, size.y);
+    if (thin < kThin)
+        return;
+    const glm::dvec2 counts = glm::ceil(size / std::min(spacing, thin) - kRounding);
+    if (double(points.size()) + counts.x * counts.y > kMaxRoomPoints)
+        throw Error(ErrorKind::input, "--bounds",
+                    "make more than 10,000 points; give the corners of one room");
+    const glm::dvec2 cell = size / counts;
+    for (double row = 0.5; row < counts.y; ++row)
+        for (double column = 0.5; column < counts.x; ++column)
+            points.push_back({part.low + cell * glm::dvec2(column, row), cell});
 }
 
-AreaPoints points_of(RoomArea kind, const FloorArea& outer, const FloorArea* hole, double height)
+AreaPoints points_of(RoomArea kind, const FloorArea& area)
 {
-    const glm::dvec2 size = outer.high - outer.low;
-    const glm::dvec2 counts = glm::max(glm::ceil(size / grid_spacing(outer)), 1.0);
-    if (counts.x * counts.y > kMaxPlanePoints)
-        throw Error(ErrorKind::input, "--bounds",
-                    "make more than a million points; give the corners of one room");
-    AreaPoints points{.area = kind, .cell = size / counts};
-    for (double row = 0.5; row < counts.y; ++row)
-        for (double column = 0.5; column < counts.x; ++column) {
-            const glm::dvec2 at = outer.low + points.cell * glm::dvec2(column, row);
-            if (!hole || !hole->contains(at))
-                points.places.emplace_back(at.x, height, at.y);
-        }
-    return points;
+    AreaPoints result{.area = kind, .spacing = grid_spacing(area)};
+    add_points(area, result.spacing, result.points);
+    return result;
+}
+
+/// Points of an area with a hole in it, by the four parts around the hole.
+AreaPoints points_around(RoomArea kind, const FloorArea& area, const FloorArea& hole)
+{
+    AreaPoints result{.area = kind, .spacing = grid_spacing(area)};
+    const FloorArea parts[] = {{area.low, {area.high.x, hole.low.y}},
+                               {{area.low.x, hole.low.y}, {hole.low.x, hole.high.y}},
+                               {{hole.high.x, hole.low.y}, {area.high.x, hole.high.y}},
+                               {{area.low.x, hole.high.y}, area.high}};
+    for (const FloorArea& part : parts)
+        add_points(part, result.spacing, result.points);
+    return result;
 }
 
 }  // namespace
-
-std::span<const RoomUse> room_uses()
-{
-    return kUses;
-}
 
 std::string names_of_room_uses()
 {
@@ -114,29 +131,37 @@ AreaLimits background_limits(double task)
 
 double grid_spacing(const FloorArea& area)
 {
-    const glm::dvec2 size = area.high - area.low;
+    const glm::dvec2 size = area.size();
     const double shorter = std::min(size.x, size.y), longer = std::max(size.x, size.y);
     const double d = longer > kLong * shorter ? shorter : longer;
     return std::min(kFactor * std::pow(kBase, std::log10(d)), kWidest);
 }
 
-std::vector<AreaPoints> points_in_areas(const FloorArea& room, const FloorArea* task, double height)
+std::vector<AreaPoints> points_in_areas(const FloorArea& room, const FloorArea* task)
 {
-    std::vector<AreaPoints> areas;
-    if (!task) {
-        const glm::dvec2 strip = glm::min(glm::dvec2(kSurroundingWidth),
-                                          0.25 * (room.high - room.low));  // of narrow rooms
-        areas.push_back(
-            points_of(RoomArea::task, {room.low + strip, room.high - strip}, nullptr, height));
-    } else {
-        if (!room.contains(task->low) || !room.contains(task->high))
-            throw Error(ErrorKind::input, "--task", "is not within the bounds of the room");
-        const FloorArea around = widened(*task, kSurroundingWidth, room);
-        areas.push_back(points_of(RoomArea::task, *task, nullptr, height));
-        areas.push_back(points_of(RoomArea::surrounding, around, task, height));
-        areas.push_back(points_of(RoomArea::background, room, &around, height));
-    }
-    std::erase_if(areas, [](const AreaPoints& one) { return one.places.empty(); });
+    const glm::dvec2 size = room.size();
+    if (!(size.x > kThin) || !(size.y > kThin))
+        throw Error(ErrorKind::input, "--bounds", "have no area; give the corners of the room");
+    const glm::dvec2 strip = glm::min(glm::dvec2(kStrip), 0.25 * size);  // of narrow rooms
+    const FloorArea inner{room.low + strip, room.high - strip};
+    if (!task)
+        return {points_of(RoomArea::task, inner)};
+    if (glm::any(glm::lessThan(task->low, room.low - kRounding)) ||
+        glm::any(glm::greaterThan(task->high, room.high + kRounding)))
+        throw Error(ErrorKind::input, "--task", "is not within the bounds of the room");
+    const auto both = [](const FloorArea& one, const FloorArea& other) {
+        return FloorArea{glm::min(one.low, other.low), glm::max(one.high, other.high)};
+    };
+    const FloorArea wide{glm::max(task->low - kStrip, inner.low),
+                         glm::min(task->high + kStrip, inner.high)};
+    const FloorArea around = both(wide, *task);
+    std::vector<AreaPoints> areas = {
+        points_of(RoomArea::task, *task), points_around(RoomArea::surrounding, around, *task),
+        points_around(RoomArea::background, inner,
+                      {glm::max(around.low, inner.low), glm::min(around.high, inner.high)})};
+    if (areas.front().points.empty())
+        throw Error(ErrorKind::input, "--task", "is thinner than 0.1 m");
+    std::erase_if(areas, [](const AreaPoints& one) { return one.points.empty(); });
     return areas;
 }
 

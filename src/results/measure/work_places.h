@@ -4,13 +4,10 @@
 // [EN12464] EN 12464-1:2021. Light and lighting - Lighting of work places - Part 1: Indoor work
 //           places. European Committee for Standardization.
 
-#include <span>
 #include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
-
-#include "results/measure/work_plane.h"
 
 namespace lumel {
 
@@ -22,8 +19,6 @@ struct RoomUse {
     double uniformity;   ///< of the task area: least / mean
     double height;       ///< of the task area above the floor [m]
 };
-
-std::span<const RoomUse> room_uses();
 
 /// "office, conference, …"
 std::string names_of_room_uses();
@@ -40,40 +35,42 @@ struct AreaLimits {
     double uniformity = 0.0;   ///< least / mean
 };
 
-/// Minimum for the band of kSurroundingWidth around a task, and for the rest of the room, by the
-/// illuminance of the task [lx].
+/// Minimum for the immediate surrounding area, and for the rest of the room, by the illuminance of
+/// the task [lx].
 AreaLimits surrounding_limits(double task);
 AreaLimits background_limits(double task);
-
-/// Width of the immediate surrounding area, and of the strip along walls that a task area need not
-/// have [m].
-inline constexpr double kSurroundingWidth = 0.5;
 
 /// x and z of two corners [m].
 struct FloorArea {
     glm::dvec2 low{0.0}, high{0.0};
 
-    bool contains(const glm::dvec2& at) const
-    {
-        return glm::all(glm::greaterThanEqual(at, low)) && glm::all(glm::lessThanEqual(at, high));
-    }
+    glm::dvec2 size() const { return high - low; }
 };
 
 /// Largest distance between points of measurement in an area: 0.2 · 5^log10(d) with d the longer
 /// side, or the shorter one where that is less than half as long; at most 10 m.
 double grid_spacing(const FloorArea& area);
 
-/// Points in the areas of a room.
-struct AreaPoints {
-    RoomArea area = RoomArea::task;
-    glm::dvec2 cell{0.0};            ///< x and z size of the cell around each point [m]
-    std::vector<glm::dvec3> places;  ///< [m]
+/// A point of measurement in the middle of its cell.
+struct AreaPoint {
+    glm::dvec2 at;    ///< x and z [m]
+    glm::dvec2 cell;  ///< its size [m]
 };
 
-/// Points of all areas at a height: of the task, or without one of the room but for the strip along
-/// its walls; around a task, of its surroundings and of the rest. Areas without points are left
-/// out. Throws Error{input} if the task is not in the room, and for more than kMaxPlanePoints.
-std::vector<AreaPoints> points_in_areas(const FloorArea& room, const FloorArea* task,
-                                        double height);
+/// Points of an area, whose cells fill it; none: the room has no such area.
+struct AreaPoints {
+    RoomArea area = RoomArea::task;
+    double spacing = 0.0;  ///< maximum [m]
+    std::vector<AreaPoint> points;
+};
+
+/// Maximum number of points in a room.
+inline constexpr double kMaxRoomPoints = 10000.0;
+
+/// Points of a room without a strip of 0.5 m along its walls: of a task, which may reach the walls,
+/// of the band of 0.5 m around it, and of the rest; without a task, of all as the task area. Throws
+/// Error{input} if the room has no area, for a task that is not in it, and for more than
+/// kMaxRoomPoints.
+std::vector<AreaPoints> points_in_areas(const FloorArea& room, const FloorArea* task);
 
 }  // namespace lumel

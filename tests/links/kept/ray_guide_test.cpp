@@ -8,8 +8,8 @@
 #include "../../support/source_folder.h"
 #include "atlas/cells/order.h"
 #include "links/kept/ray_guide.h"
+#include "links/rays/tracer.h"
 #include "links/trace/source_term.h"
-#include "links/trace/tracer.h"
 #include "rays/cast/ray_caster.h"
 
 namespace lumel {

@@ -7,8 +7,8 @@
 
 #include "../../support/source_folder.h"
 #include "atlas/cells/order.h"
+#include "links/rays/tracer.h"
 #include "links/trace/sweeps.h"
-#include "links/trace/tracer.h"
 #include "rays/cast/ray_caster.h"
 
 namespace lumel {

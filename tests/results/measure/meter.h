@@ -57,10 +57,11 @@ public:
         const RayScene rays(made_.scene);
         const LightMeter meter(made_.scene, rays, atlas_, made_.lumels, irradiance_,
                                {.samples = kManyRays});
-        LampShares lamps{.lamps = find_lamps(made_.scene, made_.lumels, meter.sources(), {})};
+        LampShares lamps{.lamps = find_lamps(made_.scene, made_.lumels, meter.sources(),
+                                             std::span<const LampGroup>())};
         for (const float share : shares)
             lamps.of_lumels.emplace_back(irradiance_.size(), glm::vec3(share));
-        return meter.read_lamps(point, 0, lamps);
+        return meter.read_lamps(point, 0, lamps).lux;
     }
 
     ProbeLight probe(const glm::vec3& position, std::uint32_t samples = kManyRays) const

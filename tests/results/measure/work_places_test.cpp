@@ -1,5 +1,7 @@
 #include "results/measure/work_places.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "base/core/error.h"
@@ -8,12 +10,17 @@ using namespace lumel;
 
 namespace {
 
-std::size_t count_of(const std::vector<AreaPoints>& areas, RoomArea kind)
+FloorArea cell_of(const AreaPoint& point)
 {
-    for (const AreaPoints& one : areas)
-        if (one.area == kind)
-            return one.places.size();
-    return 0;
+    return {point.at - 0.5 * point.cell, point.at + 0.5 * point.cell};
+}
+
+double size_of(const AreaPoints& area)
+{
+    double size = 0.0;
+    for (const AreaPoint& point : area.points)
+        size += point.cell.x * point.cell.y;
+    return size;
 }
 
 }  // namespace
@@ -49,38 +56,62 @@ TEST(WorkPlaces, SurroundingsNeedAStepLessThanTheTask)
     EXPECT_EQ(background_limits(500).uniformity, 0.1);
 }
 
-TEST(WorkPlaces, AreasOfARoomDoNotOverlap)
+// The room is 8 × 6 m, so that its areas are 7 × 5 m without the strip along the walls; a task of
+// 4 × 3.5 m has a band of 0.5 m around it, as large as that: 5 × 4.5 m less the task.
+TEST(WorkPlaces, CellsFillTheTaskItsSurroundingsAndTheRest)
 {
-    const FloorArea room{{0.0, 0.0}, {8.0, 6.0}}, task{{1.0, 1.0}, {3.0, 2.0}};
-    const FloorArea around{{0.5, 0.5}, {3.5, 2.5}};
-    const std::vector<AreaPoints> areas = points_in_areas(room, &task, 0.75);
+    const FloorArea room{{0.0, 0.0}, {8.0, 6.0}}, task{{2.0, 1.5}, {6.0, 5.0}};
+    const std::vector<AreaPoints> areas = points_in_areas(room, &task);
     ASSERT_EQ(areas.size(), 3u);
+    EXPECT_NEAR(size_of(areas[0]), 4.0 * 3.5, 1e-9);
+    EXPECT_NEAR(size_of(areas[1]), 5.0 * 4.5 - 4.0 * 3.5, 1e-9);
+    EXPECT_NEAR(size_of(areas[2]), 7.0 * 5.0 - 5.0 * 4.5, 1e-9);
     for (const AreaPoints& area : areas)
-        for (const glm::dvec3& place : area.places) {
-            const glm::dvec2 at(place.x, place.z);
-            EXPECT_EQ(place.y, 0.75);
-            EXPECT_EQ(task.contains(at), area.area == RoomArea::task);
-            EXPECT_EQ(around.contains(at), area.area != RoomArea::background);
+        for (const AreaPoint& point : area.points) {
+            const FloorArea cell = cell_of(point);
+            EXPECT_LE(std::max(point.cell.x, point.cell.y), area.spacing + 1e-9);
+            const bool is_in_task = cell.low.x > 1.999 && cell.high.x < 6.001 &&
+                                    cell.low.y > 1.499 && cell.high.y < 5.001;
+            EXPECT_EQ(is_in_task, area.area == RoomArea::task);
         }
+}
+
+TEST(WorkPlaces, ALargeTaskHasSurroundingsToo)
+{
+    const FloorArea room{{0.0, 0.0}, {20.0, 20.0}}, task{{3.0, 3.0}, {13.0, 12.0}};
+    const std::vector<AreaPoints> areas = points_in_areas(room, &task);
+    ASSERT_EQ(areas.size(), 3u);
+    EXPECT_EQ(areas[1].area, RoomArea::surrounding);
+    EXPECT_NEAR(size_of(areas[1]), 11.0 * 10.0 - 10.0 * 9.0, 1e-9);
+}
+
+TEST(WorkPlaces, ATaskMayReachTheWalls)
+{
+    const FloorArea room{{0.0, 0.0}, {8.0, 6.0}}, task{{-0.0005, 0.0}, {2.0, 1.0}};
+    const std::vector<AreaPoints> areas = points_in_areas(room, &task);
+    EXPECT_NEAR(size_of(areas[0]), 2.0, 1e-3);
 }
 
 TEST(WorkPlaces, WithoutATaskTheRoomIsOneButForAStripAlongItsWalls)
 {
-    const std::vector<AreaPoints> areas = points_in_areas({{0.0, 0.0}, {8.0, 6.0}}, nullptr, 0.75);
+    const FloorArea room{{0.0, 0.0}, {8.0, 6.0}};
+    const std::vector<AreaPoints> areas = points_in_areas(room, nullptr);
     ASSERT_EQ(areas.size(), 1u);
-    EXPECT_GT(count_of(areas, RoomArea::task), 50u);
-    for (const glm::dvec3& place : areas.front().places) {
-        EXPECT_GE(place.x, kSurroundingWidth);
-        EXPECT_LE(place.x, 8.0 - kSurroundingWidth);
-        EXPECT_GE(place.z, kSurroundingWidth);
-        EXPECT_LE(place.z, 6.0 - kSurroundingWidth);
+    EXPECT_NEAR(size_of(areas[0]), 7.0 * 5.0, 1e-9);
+    for (const AreaPoint& point : areas[0].points) {
+        EXPECT_GE(cell_of(point).low.x, 0.5 - 1e-9);
+        EXPECT_LE(cell_of(point).high.y, 5.5 + 1e-9);
     }
 }
 
-TEST(WorkPlaces, RefusesATaskOutsideOfTheRoomAndAnUnknownUse)
+TEST(WorkPlaces, RefusesRoomsTasksAndUsesThatAreNone)
 {
-    const FloorArea task{{7.0, 1.0}, {9.0, 2.0}};
-    EXPECT_THROW(points_in_areas({{0.0, 0.0}, {8.0, 6.0}}, &task, 0.75), Error);
+    const FloorArea room{{0.0, 0.0}, {8.0, 6.0}}, outside{{7.0, 1.0}, {9.0, 2.0}},
+        thin{{1.0, 1.0}, {2.0, 1.01}}, wall{{0.0, 0.0}, {8.0, 0.0}}, town{{0.0, 0.0}, {2e3, 2e3}};
+    EXPECT_THROW(points_in_areas(room, &outside), Error);
+    EXPECT_THROW(points_in_areas(room, &thin), Error);
+    EXPECT_THROW(points_in_areas(wall, nullptr), Error);
+    EXPECT_THROW(points_in_areas(town, nullptr), Error);
     EXPECT_THROW(room_use_named("offices"), Error);
     EXPECT_EQ(room_use_named("office").illuminance, 500.0);
 }

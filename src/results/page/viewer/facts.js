@@ -12,7 +12,8 @@ export function element(name, attributes = {}, ...children) {
     return made;
 }
 
-function drawn(name, attributes, text = '') {
+/** An element of SVG. */
+export function drawn(name, attributes, text = '') {
     const made = document.createElementNS(ns, name);
     for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
     made.textContent = text;

@@ -187,14 +187,15 @@ function addLamps(stage, readAgain, drawAtlases, room) {
         return;
     }
     let later = 0;
-    let changed = false;
+    let changed = null; // the lamps, until their light is drawn
     stage.drawn = () => {
-        if (changed) readAgain();
-        changed = false;
+        if (!changed) return;
+        readAgain();
+        room?.show(changed.states, changed.presets);
+        changed = null;
     };
-    const lamps = new Lamps(bakes, ({ states, presets }) => {
-        room?.show(states, presets);
-        changed = true;
+    const lamps = new Lamps(bakes, (moved) => {
+        changed = moved;
         stage.draw();
         clearTimeout(later);
         later = setTimeout(drawAtlases, millisecondsToAtlas);

@@ -1,61 +1,73 @@
 // Report of a room by EN 12464-1: maintained illuminance and uniformity by area, light scenes and lamps.
 
-import { colourAt, Scale } from './colours.js';
-import { element } from './facts.js';
+import { colourAt, luxOf, Scale } from './colours.js';
+import { drawn, element } from './facts.js';
 import { gainOf, isAsBaked, stateOf } from './lighting.js';
 
-const ns = 'http://www.w3.org/2000/svg';
-const luxShares = [0.2126, 0.7152, 0.0722];
 const metre = 100; // of the plan [units]
 const decades = 100; // range of the plan's colours, from brightest to darkest
-const textsPerCell = 2.6; // sizes of a number in a cell
+const letterWidth = 0.62; // of a digit, relative to its size
+const widestNumber = 0.85; // of a number, relative to its cell
 const brightPlace = 0.6; // on the scale: numbers are black from here on
 const notComputed = 'Not computed: glare (UGR), colour rendering, cylindrical illuminance, walls and ceiling.';
+const daylight = ' The light of sky and sun is counted as that of lamps is.';
 
-const svg = (name, attributes, text = '') => {
-    const made = document.createElementNS(ns, name);
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-    made.textContent = text;
-    return made;
-};
-const luxes = (value) => `${Number(value.toPrecision(value >= 100 ? 3 : 2))} lx`;
+// What is told is what is judged.
+const toldLux = (lux) => lux >= 100 ? Math.round(lux) : Number(lux.toPrecision(3));
+const toldUniformity = (uniformity) => Math.round(100 * uniformity) / 100;
+const luxText = (lux) => `${lux} lx`;
+const uniformityText = (uniformity) => uniformity.toFixed(2);
+
 const verdict = (met) => element('td', { class: met ? 'met' : 'missed' }, met ? '✓ met' : '✗ not met');
-
-// Factor of a lamp's illuminance. A new colour keeps it.
-const factorOf = (lamp, state) =>
-    gainOf(lamp, state).reduce((sum, gain, channel) => sum + gain * lamp.color[channel] * luxShares[channel], 0) /
-    lamp.color.reduce((sum, value, channel) => sum + value * luxShares[channel], 0);
-
 const headed = (titles) => element('tr', {}, ...titles.map((title) => element('th', { scope: 'col' }, title)));
+const named = (name) => element('th', { scope: 'row' }, name);
+
+// Factor of a lamp's illuminance; a new colour keeps it. A lamp without light has none.
+function factorOf(lamp, state) {
+    const own = luxOf(lamp.color);
+    return own > 0 ? luxOf(gainOf(lamp, state).map((gain, channel) => gain * lamp.color[channel])) / own : 0;
+}
+
+// Mean and uniformity of values of illuminance, as they are told; null: there are none.
+function figuresOf(light) {
+    if (light.length === 0) return null;
+    const mean = light.reduce((sum, value) => sum + value, 0) / light.length;
+    const least = light.reduce((low, value) => Math.min(low, value), Infinity);
+    return { lux: toldLux(mean), uniformity: toldUniformity(mean > 0 ? least / mean : 0) };
+}
+
+function headerOf({ report, room }) {
+    const [x0, z0, x1, z1] = room.room;
+    const where = `${report.scene.file}, ${(x1 - x0).toFixed(2)} × ${(z1 - z0).toFixed(2)} m, at ` +
+        `${room.height.toFixed(2)} m. `;
+    const points = room.areas.map(({ name, places, spacing }) =>
+        `${name} ${places.length}, at most ${spacing.toFixed(2)} m apart`).join('; ');
+    const error = report.solution.estimated_error;
+    const print = element('button', { type: 'button' }, 'print');
+    print.addEventListener('click', () => window.print());
+    return element('p', {}, where, `Maintenance factor ${room.maintenance}. Points: ${points}. `,
+        error === undefined ? '' : `Estimated error of the light ${(100 * error).toFixed(1)} %. `, print);
+}
 
 export class Room {
-    /** room: by room_data(). lamps: of the bake, in the order of its values; empty: all light together. */
+    /** room: by room_data(). lamps: of the bake, in the order of its values; none: all light together. */
     constructor({ report, room, lamps }) {
         Object.assign(this, { room, lamps: lamps?.list ?? [] });
-        this.results = element('table');
-        this.scenes = element('table');
-        this.list = element('table');
-        this.plan = svg('svg', { role: 'img', 'aria-label': 'maintained illuminance in the room' });
-        const print = element('button', { type: 'button' }, 'print');
-        print.addEventListener('click', () => window.print());
-        const [x0, z0, x1, z1] = room.room;
-        const where = `${report.scene.file}, ${(x1 - x0).toFixed(2)} × ${(z1 - z0).toFixed(2)} m, at ` +
-            `${room.height.toFixed(2)} m`;
-        const points = room.areas.map(({ name, places, cell: [width, depth] }) =>
-            `${name}: ${places.length}, ${width.toFixed(2)} × ${depth.toFixed(2)} m apart`).join('; ');
-        const error = report.solution.estimated_error;
+        [this.results, this.scenes, this.list] = [1, 2, 3].map(() => element('table'));
+        this.plan = drawn('svg', { role: 'img', 'aria-label': 'maintained illuminance in the room' });
+        const brightest = room.areas.flatMap((area) => this.light(area, new Map()))
+            .reduce((most, lux) => Math.max(most, lux), 1e-6);
+        this.scale = new Scale(brightest / decades, brightest); // that of the bake, in all states
         this.node = element('section', { id: 'room' },
-            element('h2', {}, `Room by EN 12464-1:2021: ${room.title}`),
-            element('p', {}, `${where}. Maintenance factor ${room.maintenance}. Points: ${points}. `,
-                error === undefined ? '' : `Estimated error of the light: ${(100 * error).toFixed(1)} %. `, print),
-            this.results, this.plan,
+            element('h2', {}, `Room by EN 12464-1:2021: ${room.title}`), headerOf({ report, room }), this.results,
+            element('h3', {}, 'Maintained illuminance [lx]'), this.plan,
             ...(this.lamps.length > 0 ? [element('h3', {}, 'Light scenes'), this.scenes,
                 element('h3', {}, 'Luminaires'), this.list] : []),
-            element('p', { class: 'hint' }, notComputed));
+            element('p', { class: 'hint' }, notComputed, room.has_daylight ? daylight : ''));
         this.show(new Map(), new Map());
     }
 
-    // Illuminance of the lamps in a state at each point of an area, maintained. [lx]
+    // Maintained illuminance at each point of an area, with lamps in states by name. [lx]
     light({ lux }, states) {
         const factors = this.lamps.length > 0
             ? this.lamps.map((lamp) => factorOf(lamp, stateOf(states.get(lamp.name) ?? {}))) : [1];
@@ -63,68 +75,74 @@ export class Room {
             ofLamps.reduce((sum, value, lamp) => sum + factors[lamp] * value, 0));
     }
 
-    found(area, states) {
-        const light = this.light(area, states);
-        if (light.length === 0) return null;
-        const mean = light.reduce((sum, value) => sum + value, 0) / light.length;
-        return { mean, uniformity: mean > 0 ? Math.min(...light) / mean : 0 };
-    }
-
     /** Shows lamps in states by name, and the scenes of presets. */
     show(states, presets) {
-        this.results.replaceChildren(headed(['', 'required', 'found', '']), ...this.room.areas.flatMap((area) => {
-            const found = this.found(area, states);
-            if (!found) return [];
-            const row = (what, wanted, is, text) => {
-                const made = element('tr', {}, element('th', { scope: 'row' }, `${area.name}: ${what}`),
-                    element('td', {}, `≥ ${text(wanted)}`), element('td', {}, text(is)), verdict(is >= wanted));
-                Object.assign(made.dataset, { area: area.name, what, found: is, met: is >= wanted });
-                return made;
-            };
-            return [row('maintained illuminance', area.illuminance, found.mean, luxes),
-                row('uniformity', area.uniformity, found.uniformity, (value) => value.toFixed(2))];
-        }));
+        this.results.replaceChildren(headed(['requirement', 'at least', 'found', 'verdict']),
+            ...this.room.areas.flatMap((area) => this.rowsOf(area, states)));
         this.showScenes(states, presets);
         this.list.replaceChildren(headed(['luminaire', 'kind', 'state']), ...this.lamps.map((lamp) => {
             const state = stateOf(states.get(lamp.name) ?? {});
             const members = lamp.kind === 'group' ? `: ${lamp.members.join(', ')}` : '';
             const how = isAsBaked(state) ? 'as baked' : state.on
                 ? `${Math.round(100 * state.factor)} %${state.colour ? `, ${state.colour}` : ''}` : 'off';
-            return element('tr', {}, element('th', { scope: 'row' }, lamp.name),
-                element('td', {}, lamp.kind + members), element('td', {}, how));
+            return element('tr', {}, named(lamp.name), element('td', {}, lamp.kind + members),
+                element('td', {}, how));
         }));
         this.draw(states);
+    }
+
+    rowsOf(area, states) {
+        const found = figuresOf(this.light(area, states));
+        const row = (what, wanted, is, text) => {
+            const cells = found ? [element('td', {}, text(is)), verdict(is >= wanted)]
+                : [element('td', {}, 'not measured: no point in the open air'), element('td')];
+            const made = element('tr', {}, named(`${area.name}: ${what}`), element('td', {}, text(wanted)), ...cells);
+            Object.assign(made.dataset, { area: area.name, what, wanted, found: is, met: is >= wanted });
+            return made;
+        };
+        return [row('maintained illuminance', toldLux(area.illuminance), found?.lux, luxText),
+            row('uniformity', toldUniformity(area.uniformity), found?.uniformity, uniformityText)];
     }
 
     showScenes(states, presets) {
         const [task] = this.room.areas;
         const scenes = [['as shown', states], ['as baked', new Map()], ...presets];
-        this.scenes.replaceChildren(headed(['scene', 'task area', 'uniformity', '']), ...scenes.map(([name, lit]) => {
-            const { mean, uniformity } = this.found(task, lit);
-            return element('tr', {}, element('th', { scope: 'row' }, name), element('td', {}, luxes(mean)),
-                element('td', {}, uniformity.toFixed(2)),
-                verdict(mean >= task.illuminance && uniformity >= task.uniformity));
-        }));
+        this.scenes.replaceChildren(headed(['scene', 'task area', 'uniformity', 'verdict']),
+            ...scenes.map(([name, lit]) => {
+                const { lux, uniformity } = figuresOf(this.light(task, lit));
+                return element('tr', {}, named(name), element('td', {}, luxText(lux)),
+                    element('td', {}, uniformityText(uniformity)),
+                    verdict(lux >= toldLux(task.illuminance) && uniformity >= toldUniformity(task.uniformity)));
+            }));
     }
 
-    // A cell for each point, seen from above.
+    // A cell for each point, seen from above; a line around the task area.
     draw(states) {
         const [x0, z0, x1, z1] = this.room.room;
         this.plan.setAttribute('viewBox', `0 0 ${metre * (x1 - x0)} ${metre * (z1 - z0)}`);
-        const lights = this.room.areas.map((area) => this.light(area, states));
-        const most = Math.max(...lights.flat(), 1e-6);
-        const scale = new Scale(most / decades, most);
         const cells = [], numbers = [];
-        this.room.areas.forEach(({ places, cell }, a) => places.forEach(([x, z], i) => {
-            const [width, height] = cell.map((side) => metre * side);
-            const lux = lights[a][i], place = scale.placeOf(lux);
-            const at = { x: metre * (x - x0), y: metre * (z - z0) };
-            cells.push(svg('rect', { x: at.x - width / 2, y: at.y - height / 2, width, height,
-                fill: `rgb(${colourAt(place).join(' ')})` }));
-            numbers.push(svg('text', { ...at, 'font-size': Math.min(width, height) / textsPerCell, 'text-anchor': 'middle',
-                'dominant-baseline': 'central', fill: place > brightPlace ? '#000' : '#fff' },
-            lux < 9.95 ? lux.toFixed(1) : String(Math.round(lux))));
-        }));
-        this.plan.replaceChildren(...cells.reverse(), ...numbers); // the task last, on top
+        for (const area of this.room.areas) {
+            const light = this.light(area, states);
+            area.places.forEach(([x, z, ...sides], i) => {
+                const [width, height] = sides.map((side) => metre * side);
+                const at = { x: metre * (x - x0), y: metre * (z - z0) }, place = this.scale.placeOf(light[i]);
+                cells.push(drawn('rect', { x: at.x - width / 2, y: at.y - height / 2, width, height,
+                    fill: `rgb(${colourAt(place).join(' ')})` }));
+                const number = String(toldLux(light[i]));
+                numbers.push(drawn('text', { ...at, 'text-anchor': 'middle', 'dominant-baseline': 'central',
+                    'font-size': Math.min(widestNumber * width / (letterWidth * number.length), 0.4 * height),
+                    fill: place > brightPlace ? '#000' : '#fff' }, number));
+            });
+        }
+        this.plan.replaceChildren(...cells, ...(this.room.areas.length > 1 ? [this.outline()] : []), ...numbers);
+    }
+
+    outline() {
+        const edge = (axis, side) => this.room.areas[0].places.map((place) =>
+            metre * (place[axis] + side * place[axis + 2] / 2 - this.room.room[axis]));
+        const least = (values) => values.reduce((low, value) => Math.min(low, value), Infinity);
+        const most = (values) => values.reduce((high, value) => Math.max(high, value), -Infinity);
+        const x = least(edge(0, -1)), y = least(edge(1, -1));
+        return drawn('rect', { x, y, width: most(edge(0, 1)) - x, height: most(edge(1, 1)) - y, class: 'outline' });
     }
 }

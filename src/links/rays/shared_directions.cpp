@@ -1,6 +1,6 @@
 //   [Sho92] K. Shoemake. Uniform Random Rotations. 1992.
 
-#include "links/trace/shared_directions.h"
+#include "links/rays/shared_directions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@
 #include "links/direct/direct.h"
 #include "links/kept/link_changes.h"
 #include "links/kept/link_table.h"
-#include "links/trace/shared_directions.h"
+#include "links/rays/shared_directions.h"
 #include "rays/paths/samples.h"
 
 namespace lumel {

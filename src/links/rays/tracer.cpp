@@ -1,4 +1,7 @@
-#include "links/trace/tracer.h"
+// Rays of lumels, from their start to their first hit, and what is kept of them. Those that go on
+// are in links/rays/paths.cpp.
+
+#include "links/rays/tracer.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,130 +14,16 @@
 #include "base/core/parallel.h"
 #include "base/core/pi.h"
 #include "base/core/sphere.h"
+#include "links/rays/ray_batch.h"
 
 namespace lumel {
 namespace {
 
-constexpr float kFar = std::numeric_limits<float>::max();
-
-/// A hit closer than this many sides of the larger lumel is reflected again, with shadow rays at
-/// the hit: neither cells nor sub-lumels resolve such small distances.
-constexpr float kTooNear = 0.25f;
 /// A first hit closer than kNearSides gets shadow rays if it is closer than this, or if direct
 /// light varies within the lumel; otherwise the lumel's has less noise.
 constexpr float kNearForCells = 1.0f;
-/// Hits closer than this many sides can be on a sliver that the lumel's cells do not represent, as
-/// in a gap between two walls: light is looked up in a cell visible from the hit, or not at all.
-constexpr float kMayBeHidden = 1.0f;
-/// Maximum number of such reflections.
-constexpr int kMaxReflections = 8;
-/// Height of visibility rays to cells above the surface, in sides of the lumel.
-constexpr float kAboveHit = 0.05f;
-
-/// Dimension pairs of a ray's random numbers; each reflection uses kPerReflection more.
-constexpr std::uint32_t kOriginPair = 0, kPassPair = 2, kFirstReflection = 3, kPerReflection = 2;
 
 }  // namespace
-
-/// Result of a ray: the lumel it hits, or the number of its end.
-struct LinkTracer::Landing {
-    std::uint32_t lumel = kNoLumel;
-    std::uint32_t end = 0;  ///< number, without a lumel
-    std::uint32_t cell = 0;
-    float size = 0.0f;  ///< of the lumel [m]
-    glm::vec3 position{0.0f};
-};
-
-/// A ray that needs more than its first hit: one near its lumel, behind glass, or on a lumel that
-/// is cut, half covered or has hidden points.
-struct LinkTracer::Path {
-    PathSamples samples;
-    std::uint32_t slot;
-    float size;               ///< size of the last lumel on the path [m]
-    glm::vec3 weight;         ///< that remains
-    float distance;           ///< to the first hit [m], or NearLink::kNoHit
-    LinkEnd end;              ///< once it ended
-    glm::vec3 light{0.0f};    ///< gathered [lx]
-    bool is_straight = true;  ///< not reflected
-};
-
-/// A path's hit on a lumel.
-struct LinkTracer::PathHit {
-    std::uint32_t ray;  ///< of the batch
-    std::uint32_t path;
-    std::uint32_t lumel, cell;
-    glm::vec3 position;              ///< [m]
-    bool may_be_hidden;              ///< the hit may be occluded from the lumel's cells
-    bool looks_around;               ///< traces shadow rays instead of using a cell
-    bool goes_on;                    ///< is reflected there
-    bool is_hidden = false;          ///< no cell is visible
-    std::uint32_t unseen_cells = 0;  ///< bit c: cell c was tested, and is occluded
-};
-
-/// A part of a path's light, as in NearShare.
-struct LinkTracer::PathShare {
-    std::uint32_t path;
-    std::uint32_t lamp;
-    LinkEnd at;
-    glm::vec3 light;
-};
-
-/// Light of the sky along a ray.
-struct LinkTracer::SkyRay {
-    std::uint32_t slot;
-    glm::vec3 light;  ///< [lx]
-};
-
-/// Rays traced together, and their paths, one reflection at a time.
-struct LinkTracer::RayBatch {
-    // Results, in slots of the batch.
-    std::vector<std::uint32_t> lumels;
-    std::vector<LumelSamples> samples;         ///< [lumels] of their rays
-    std::vector<std::uint32_t> slots_before;   ///< [lumels + 1]
-    std::vector<LinkEnd> ends;                 ///< [slots]
-    std::vector<std::uint8_t> from;            ///< [slots] cells that the rays leave
-    std::vector<std::uint16_t> probabilities;  ///< [slots] of guided directions
-    std::vector<SkyRay> sky;
-    std::vector<Path> paths;        ///< by slot
-    std::vector<PathShare> shares;  ///< of paths; empty unless lamps are kept apart
-
-    // Rays that have not ended.
-    std::vector<RaySpan> rays;
-    std::vector<std::uint32_t> of;     ///< [rays] slots of first rays, paths of later ones
-    std::vector<RayHit> hits;          ///< [rays or more]
-    std::vector<std::uint32_t> along;  ///< [rays] shared direction, for first rays
-    bool is_cast = false;              ///< hits of first rays are known
-    std::vector<std::uint32_t> met;    ///< [rays] lumels
-    std::vector<Landing> landings;     ///< [rays]
-    std::uint32_t first_rays = 0;
-    std::vector<PathHit> arrivals;
-
-    // One reflection; members to reuse their memory.
-    std::vector<std::uint32_t> open;  ///< hits that need a visible cell
-    std::vector<RaySpan> to_cells;
-    std::vector<glm::vec3> transmittance;  ///< [to_cells]
-    ShadowRays looks;
-    std::vector<RaySpan> next_rays;
-    std::vector<std::uint32_t> next_of;  ///< [next_rays]
-    std::vector<std::uint32_t> looking;  ///< paths with shadow rays
-
-    RayBatch() { begin(); }
-    void begin()
-    {
-        lumels.clear();
-        samples.clear();
-        slots_before.assign(1, 0);
-        ends.clear();
-        from.clear();
-        probabilities.clear();
-        sky.clear();
-        paths.clear();
-        shares.clear();
-        rays.clear();
-        of.clear();
-        along.clear();
-    }
-};
 
 LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
                        const DirectEstimator& direct, std::uint32_t seed, const LampTable* lamps)
@@ -203,9 +92,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
             drawn = (*guided)(samples.stratified(kDirectionPair));
             wave.probabilities.push_back(guided->probability(drawn->bin));
         }
-        std::optional<LinkEnd> end;
-        if (!known.empty())
-            end = still(known[k], *sending.known);
+        std::optional<LinkEnd> end = known.empty() ? std::nullopt : still(known[k], *sending.known);
         const bool is_sky = end && end->number() == LinkNumbers::kSky;
         if (end && !parts_.is_cut(i) && !is_sky && sending.known->changes.moved.empty()) {
             wave.ends.push_back(*end);
@@ -248,7 +135,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
                     {std::uint32_t(wave.ends.size()), kPi * work_.sources.dim_sky(direction)});
             }
         }
-        wave.ends.push_back(end.value_or(LinkEnd::of(LinkNumbers::kBelow)));
+        wave.ends.push_back(end ? *end : LinkEnd::of(LinkNumbers::kBelow));
         wave.from.push_back(std::uint8_t(cell));
     }
     wave.lumels.push_back(i);
@@ -374,188 +261,6 @@ void LinkTracer::meet_first(RayBatch& wave) const
         } else if (at.end == LinkNumbers::kSky)
             add_sky(wave, path, ray);
     }
-}
-
-/// Adds the light of the sky at the end of a path.
-void LinkTracer::add_sky(RayBatch& wave, std::uint32_t path, const RaySpan& ray) const
-{
-    const glm::vec3 light = wave.paths[path].weight * kPi * work_.sources.dim_sky(ray.direction);
-    wave.paths[path].light += light;
-    if (lamps_)
-        wave.shares.push_back({path, lamps_->of_dim_sky, {}, light});
-}
-
-/// Ends reflected paths that hit no lumel; makes a PathHit of the others.
-void LinkTracer::meet(RayBatch& wave, int reflections) const
-{
-    for (std::uint32_t r = 0; r < wave.rays.size(); ++r) {
-        const RaySpan& ray = wave.rays[r];
-        const RayHit& hit = wave.hits[r];
-        Path& path = wave.paths[wave.of[r]];
-        path.weight *= hit.tint;
-        const Landing& at = wave.landings[r];
-        if (at.lumel == kNoLumel) {
-            path.end = LinkEnd::of(at.end);
-            if (at.end == LinkNumbers::kSky)
-                add_sky(wave, wave.of[r], ray);
-            continue;
-        }
-        const float sides = hit.distance / std::max(path.size, at.size);
-        const bool is_near =
-            reflections < kMaxReflections && (sides < kTooNear || parts_.is_half_covered(at.lumel));
-        wave.arrivals.push_back(
-            {.ray = r,
-             .path = wave.of[r],
-             .lumel = at.lumel,
-             .cell = at.cell,
-             .position = at.position,
-             .may_be_hidden = parts_.has_hidden(at.lumel) || sides < kMayBeHidden,
-             .looks_around = is_near,
-             .goes_on = is_near});
-    }
-}
-
-/// For hits that may be occluded from their cell, finds the nearest visible cell of the lumel.
-/// Paths without one are reflected, up to the maximum.
-void LinkTracer::find_seen_cells(RayBatch& wave, int reflections) const
-{
-    std::vector<std::uint32_t>& open = wave.open;
-    open.clear();
-    for (std::uint32_t a = 0; a < wave.arrivals.size(); ++a)
-        if (!wave.arrivals[a].looks_around && wave.arrivals[a].may_be_hidden)
-            open.push_back(a);
-    // By lumel, so that the points of its cells are found once.
-    std::ranges::sort(open, {},
-                      [&](std::uint32_t a) { return std::pair(wave.arrivals[a].lumel, a); });
-    while (!open.empty()) {
-        // One ray for each hit with an untested cell.
-        wave.to_cells.clear();
-        std::uint32_t of = kNoLumel;
-        CellPoints points;
-        std::erase_if(open, [&](std::uint32_t a) {
-            PathHit& arrival = wave.arrivals[a];
-            if (arrival.lumel != of) {
-                of = arrival.lumel;
-                points = cell_points(work_.world, work_.cells, of);
-            }
-            const std::optional<RaySpan> ray =
-                ray_to_cell(arrival, points, wave.rays[arrival.ray].seed);
-            if (ray) {
-                wave.to_cells.push_back(*ray);
-                return false;
-            }
-            arrival.is_hidden = true;
-            arrival.goes_on = arrival.looks_around = reflections < kMaxReflections;
-            return true;
-        });
-        wave.transmittance.resize(wave.to_cells.size());
-        work_.caster_of_few().transmittance(wave.to_cells, wave.transmittance);
-        auto passed = wave.transmittance.begin();
-        std::erase_if(open, [&](std::uint32_t a) {
-            const bool sees = *passed++ != glm::vec3(0.0f);
-            if (!sees)
-                wave.arrivals[a].unseen_cells |= 1u << wave.arrivals[a].cell;
-            return sees;
-        });
-    }
-}
-
-/// Ray to the nearest cell not known to be occluded, which becomes the hit's cell; empty if there
-/// is none. points: of the lumel's cells.
-std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, const CellPoints& points,
-                                               std::uint32_t seed) const
-{
-    const std::uint32_t j = arrival.lumel;
-    const std::uint32_t left = points.used & ~arrival.unseen_cells;
-    if (left == 0)
-        return std::nullopt;
-    float least = kFar;
-    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c) {
-        const glm::vec3 apart = points.point[c].position - arrival.position;
-        if ((left >> c & 1u) != 0 && glm::dot(apart, apart) < least) {
-            least = glm::dot(apart, apart);
-            arrival.cell = c;
-        }
-    }
-    const float ray_offset =
-        std::max(kAboveHit * work_.world[j].size, ray_offset_for(work_.world[j].reach));
-    const LumelPoint& point = points.point[arrival.cell];
-    return ray_between(arrival.position + ray_offset * work_.world[j].normal,
-                       point.position + ray_offset * point.normal, 0.0f, seed);
-}
-
-/// Ends paths at the sub-lumels that they hit, or reflects them.
-void LinkTracer::end_or_reflect(RayBatch& wave, int reflections) const
-{
-    wave.next_rays.clear();
-    wave.next_of.clear();
-    wave.looking.clear();
-    wave.looks.clear();
-    for (const PathHit& arrival : wave.arrivals) {
-        Path& path = wave.paths[arrival.path];
-        const glm::vec3& albedo = work_.lumels()[arrival.lumel].albedo;
-        path.end = LinkEnd::of(LinkNumbers::kBelow);
-        if (arrival.is_hidden && !arrival.goes_on)
-            continue;
-        if (!arrival.looks_around) {
-            path.light += path.weight * albedo * direct_.at(arrival.lumel, arrival.cell);
-            if (lamps_)
-                wave.shares.push_back(
-                    {arrival.path, NearShare::kEveryLamp,
-                     LinkEnd::of(numbers_.of_part(parts_.part(arrival.lumel, arrival.cell)),
-                                 arrival.cell),
-                     path.weight});
-        }
-        if (!arrival.goes_on) {
-            path.end = LinkEnd::of(numbers_.of_part(parts_.part(arrival.lumel, arrival.cell)),
-                                   arrival.cell);
-            continue;
-        }
-        path.is_straight = false;
-        path.weight *= albedo;
-        if (path.weight == glm::vec3(0.0f))
-            continue;
-        wave.next_rays.push_back(reflect(wave, arrival, reflections, path, wave.looks));
-        wave.next_of.push_back(arrival.path);
-        if (arrival.looks_around)
-            wave.looking.push_back(arrival.path);
-    }
-    wave.looks.cast(work_.caster_of_few());
-    for (std::uint32_t n = 0; n < wave.looking.size(); ++n) {
-        Path& path = wave.paths[wave.looking[n]];
-        const std::uint32_t first = n * direct_.looks_around();
-        path.light += path.weight * direct_.light_of(wave.looks, first);
-        for (std::uint32_t look = first; lamps_ && look < first + direct_.looks_around(); ++look)
-            wave.shares.push_back({wave.looking[n],
-                                   lamps_->of_source[wave.looks.sample(look).source],
-                                   {},
-                                   path.weight * wave.looks.transmittance(look) *
-                                       wave.looks.sample(look).irradiance});
-    }
-    wave.rays.swap(wave.next_rays);
-    wave.of.swap(wave.next_of);
-}
-
-/// Queues the hit's shadow rays, if it has any, and returns the reflected ray.
-RaySpan LinkTracer::reflect(const RayBatch& wave, const PathHit& arrival, int reflections,
-                            Path& path, ShadowRays& looks) const
-{
-    const RaySpan& ray = wave.rays[arrival.ray];
-    const RayHit& hit = wave.hits[arrival.ray];
-    const auto pair_of = [](int bounce) {
-        return kFirstReflection + std::uint32_t(bounce) * kPerReflection;
-    };
-    const std::uint32_t pair = pair_of(reflections);
-    const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
-    const glm::vec3 origin = ray.origin +
-                             ray.direction * std::max(0.0f, hit.distance - hit.ray_offset) +
-                             hit.ray_offset * normal;
-    path.size = work_.lumels()[arrival.lumel].size;
-    if (arrival.looks_around)
-        direct_.sample_lights({origin, normal, normal, arrival.cell}, path.size,
-                              path.samples.bits(pair), looks);
-    return ray_out(origin, frame_about(normal) * by_cosine(path.samples.random(pair + 1)),
-                   path.samples.bits(pair_of(reflections + 1)));
 }
 
 /// Stores the results of a batch, whose lumels are those of work_.order from `first` on.
