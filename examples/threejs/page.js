@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { bindLightmap, loadLitScene } from './lightmap.js';
+import { bindLightmap, loadLitScene } from 'lumel-three';
 
 const texelNames = new Map([
     [THREE.HalfFloatType, 'half'],

@@ -28,7 +28,8 @@ const { values: options, positionals: [scene, picture] } = parseArgs({
 const page = `<!doctype html><meta charset="utf-8"><body style="margin: 0">
 <script type="importmap">{"imports": {
     "three": "/modules/three/build/three.module.js",
-    "three/addons/": "/modules/three/examples/jsm/"}}</script>
+    "three/addons/": "/modules/three/examples/jsm/",
+    "lumel-three": "/lumel-three/index.js"}}</script>
 <script type="module" src="/page.js"></script>`;
 const types = { '.js': 'text/javascript', '.wasm': 'application/wasm' };
 
@@ -37,6 +38,7 @@ function fileOf(path) {
     if (path === '/scene.glb') return scene;
     if (path === '/map.exr') return options.map;
     if (path === '/other.png') return options.compare;
+    if (path.startsWith('/lumel-three/')) return join(here, '../../addons/three', normalize(path.slice(12)));
     if (path.startsWith('/modules/')) return join(options.modules, normalize(path.slice(8)));
     return join(here, normalize(path));
 }

@@ -166,43 +166,49 @@ std::vector<std::string> lamp_map_names(const std::vector<NamedLamp>& lamps)
     return names;
 }
 
-std::vector<std::string> write_lamps(const OutputFolder& folder, const BakeOptions& options,
-                                     const SolveScene& prepared,
-                                     std::span<const glm::vec3> irradiance, const LampLights& lamps,
-                                     Stages& stages)
+WrittenLamps write_lamps(const OutputFolder& folder, const BakeOptions& options,
+                         const SolveScene& prepared, std::span<const glm::vec3> irradiance,
+                         const LampLights& lamps, Stages& stages)
 {
-    const FinishedMaps finished = lamp_maps(prepared, irradiance, lamps.light);
-    const std::vector<Image>& maps = finished.layers;
+    FinishedMaps finished = lamp_maps(prepared, irradiance, lamps.light);
+    const double apart = error_of_sum(finished.light, finished.layers);
+    WrittenLamps written{.maps = std::move(finished.layers)};
     const std::vector<std::string> names = lamp_map_names(lamps.lamps);
     const Pages& pages = prepared.atlas.pages;
-    std::vector<std::string> files;
     Json rows = Json::array();
-    for (std::size_t k = 0; k < maps.size(); ++k) {
+    for (std::size_t k = 0; k < written.maps.size(); ++k) {
         const NamedLamp& lamp = lamps.lamps[k];
         for (int page = 0; page < pages.count; ++page) {
-            files.push_back(page_name(pages, page, names[k]) + ".exr");
-            write_exr(folder.path(files.back()), cut_page(pages, page, maps[k]),
+            written.files.push_back(page_name(pages, page, names[k]) + ".exr");
+            write_exr(folder.path(written.files.back()), cut_page(pages, page, written.maps[k]),
                       options.half ? Precision::float16 : Precision::float32,
                       map_metadata(prepared.scene));
         }
-        rows.push_back({{"name", lamp.name},
-                        {"kind", lamp.kind},
-                        {"members", lamp.members},
+        const SceneLamp& listed =
+            written.in_scene.emplace_back(SceneLamp{.name = lamp.name,
+                                                    .kind = lamp.kind,
+                                                    .members = lamp.members,
+                                                    .color = colour_of(lamps.light[k].irradiance),
+                                                    .error = lamps.light[k].error,
+                                                    .map = &written.maps[k]});
+        rows.push_back({{"name", listed.name},
+                        {"kind", listed.kind},
+                        {"members", listed.members},
                         {"unit", "lx"},
-                        {"color", json_array(colour_of(lamps.light[k].irradiance))},
-                        {"error", lamps.light[k].error},
+                        {"color", json_array(listed.color)},
+                        {"error", listed.error},
                         {"map", page_name(pages, 0, names[k]) + ".exr"}});
     }
-    const double apart = error_of_sum(finished.light, maps);
     Json list = {{"lamps", rows}};
     // Half precision rounds each map and the lightmap.
     if (!options.half)
         list["sum_error"] = apart;
     write_json(folder.path(kLampsFile), list);
-    files.emplace_back(kLampsFile);
-    stages.tell(fmt::format("{} lamps, whose maps add up to the lightmap within {}", maps.size(),
+    written.files.emplace_back(kLampsFile);
+    stages.tell(fmt::format("{} lamps, whose maps add up to the lightmap within {}",
+                            written.maps.size(),
                             options.half ? "half precision" : fmt::format("{:.1e} of it", apart)));
-    return files;
+    return written;
 }
 
 void outdate_lamps(OutputFolder& folder, const std::string& target)

@@ -12,6 +12,7 @@
 #include "jobs/solve/stages.h"
 #include "links/trace/links.h"
 #include "results/files/folder.h"
+#include "results/files/lamps_in_scene.h"
 
 namespace lumel {
 
@@ -38,11 +39,17 @@ FinishedMaps lamp_maps(const SolveScene& prepared, std::span<const glm::vec3> ir
 /// can have it.
 std::vector<std::string> lamp_map_names(const std::vector<NamedLamp>& lamps);
 
-/// Writes the maps and lamps.json. Returns the names of the files.
-std::vector<std::string> write_lamps(const OutputFolder& folder, const BakeOptions& options,
-                                     const SolveScene& prepared,
-                                     std::span<const glm::vec3> irradiance, const LampLights& lamps,
-                                     Stages& stages);
+/// Result of write_lamps().
+struct WrittenLamps {
+    std::vector<std::string> files;   ///< names
+    std::vector<Image> maps;          ///< [lamps] irradiance [lx]
+    std::vector<SceneLamp> in_scene;  ///< [lamps] of these maps
+};
+
+/// Writes the maps and lamps.json.
+WrittenLamps write_lamps(const OutputFolder& folder, const BakeOptions& options,
+                         const SolveScene& prepared, std::span<const glm::vec3> irradiance,
+                         const LampLights& lamps, Stages& stages);
 
 /// Removes lamps.json and the maps of lamps of an earlier bake from the folder `target`: those that
 /// its report lists.

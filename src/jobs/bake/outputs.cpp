@@ -129,7 +129,8 @@ std::optional<DrawnPreview> draw_preview(const gpu::Device& device, const BakeOp
 WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
                          const SolveScene& prepared, const gpu::Device* device,
                          const std::vector<glm::vec3>& irradiance, const std::vector<float>& error,
-                         const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages)
+                         const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages,
+                         std::span<const SceneLamp> lamps)
 {
     const DirectionalMaps maps = finish_directional(prepared, irradiance, coefficients);
     const Image& map = maps.light;
@@ -162,7 +163,8 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
                     {.keep = options.keep_lights || options.parts == Parts::indirect,
                      .exposure = written.exposure,
                      .format = options.lightmap_format,
-                     .camera = camera});
+                     .camera = camera,
+                     .lamps = lamps});
     const BakedTexture baked = baked_texture(prepared, map, radiance, options.baked_size);
     if (baked.density < 1.0)
         stages.tell("textures in scene-baked.glb are downsampled to " +
@@ -177,13 +179,12 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const S
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages)
 {
+    WrittenLamps lamps;
+    if (results.per_lamp)
+        lamps = write_lamps(folder, options, prepared, irradiance, *results.per_lamp, stages);
     const WrittenLight written =
         write_light(folder, options, prepared, &device, irradiance, solver.error_estimate(),
-                    results.directional.coefficients, stages);
-    std::vector<std::string> files_of_lamps;
-    if (results.per_lamp)
-        files_of_lamps =
-            write_lamps(folder, options, prepared, irradiance, *results.per_lamp, stages);
+                    results.directional.coefficients, stages, lamps.in_scene);
     stages.end();
     device.check_validation();
 
@@ -193,7 +194,7 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const S
     folder.outdate(kProbesFile);
     outdate_other_pages(folder, prepared.atlas.pages);
     BakeRecord record = record_of(options, prepared, results, written);
-    record.files.insert(record.files.end(), files_of_lamps.begin(), files_of_lamps.end());
+    record.files.insert(record.files.end(), lamps.files.begin(), lamps.files.end());
     Report facts = bake_report(record, prepared, device, solver, results, stages);
     facts.preview = preview_row(written, prepared.scene);
     const Json report = to_json(facts);

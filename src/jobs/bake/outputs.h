@@ -59,11 +59,12 @@ struct WrittenLight {
 
 /// Writes the maps, the data that update() needs, and the lit scenes. device: for the preview;
 /// null: none. A preview that cannot be rendered is a warning. irradiance [N] [lx], error: see
-/// Solver::error_estimate(), coefficients: see DirectionalLight.
+/// Solver::error_estimate(), coefficients: see DirectionalLight. lamps: for scene.glb.
 WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
                          const SolveScene& prepared, const gpu::Device* device,
                          const std::vector<glm::vec3>& irradiance, const std::vector<float>& error,
-                         const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages);
+                         const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages,
+                         std::span<const SceneLamp> lamps = {});
 
 /// Writes all files of `lumel bake`; the caller commits them. irradiance [N] [lx].
 BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const SolveScene& prepared,

@@ -11,6 +11,7 @@
 #include "base/core/error.h"
 #include "base/images/image_files.h"
 #include "scene/gltf/accessor.h"
+#include "scene/gltf/extras.h"
 #include "scene/gltf/page_parts.h"
 #include "scene/gltf/webp.h"
 #include "scene/load/webp_image.h"
@@ -65,6 +66,8 @@ std::set<std::size_t> used_views(const Json& json)
 {
     std::set<std::size_t> views;
     for_objects(json, [&](const Json& object) { insert_index(object, "bufferView", views); });
+    if (const auto lamps = lamps_view_in_extras(json))
+        views.insert(*lamps);
     return views;
 }
 

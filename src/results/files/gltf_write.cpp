@@ -106,6 +106,7 @@ void rewrite(const std::string& path, const GltfDocument& document, const Scene&
              const Atlas& atlas, Attributes kept, const Prepare& prepare, const Finish& finish)
 try {
     GlbBuilder builder(document);
+    forget_lamps(builder.json);
     std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
 
     cut_baked_primitives(builder.json, baked);
@@ -144,6 +145,8 @@ void write_scene_glb(const std::string& path, const GltfDocument& document, cons
                               scale);
             tell_of_lightmap(builder.json, materials[page], atlas.pages, int(page));
         }
+        if (!lights.lamps.empty() && lights.format != LightmapFormat::none)
+            add_lamps(builder, atlas.pages, lights.lamps);
     };
     rewrite(path, document, scene, atlas, Attributes::all, prepare, finish);
 }

@@ -8,11 +8,13 @@
 // number if that is used too.
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "atlas/packing/atlas.h"
 #include "base/core/image.h"
 #include "base/images/lightmap_format.h"
+#include "results/files/lamps_in_scene.h"
 #include "scene/gltf/document.h"
 #include "scene/values/scene.h"
 #include "scene/values/view.h"
@@ -31,6 +33,7 @@ struct SceneLighting {
     std::optional<float> exposure;  ///< exposure for the scene [1/lx]
     LightmapFormat format = LightmapFormat::ktx2;
     std::optional<AddedCamera> camera;
+    std::span<const SceneLamp> lamps = {};  ///< whose light is kept apart; not for format none
 };
 
 /// scene.glb: the map is bound by MOZ_lightmap {index, texCoord: 1, intensity} on every baked
@@ -43,6 +46,8 @@ struct SceneLighting {
 /// extras.lumel of each baked material also names the map beside the file: tools that drop the
 /// extension keep extras. document: that the scene was read from. map: irradiance [lx], RGBA.
 /// Throws Error.
+///
+/// Maps of lamps are added as add_lamps() does.
 ///
 /// Lamps and skies of the input are baked: they move to extras (see scene/gltf/baked_lights.h),
 /// unless `lights` keeps them. asset.extras.lumel has their number and the exposure. A camera of

@@ -1,36 +1,9 @@
 #include "results/page/packed_text.h"
 
-#include <vector>
-
-#include <zlib.h>
-
-#include "base/core/error.h"
+#include "results/files/gzip.h"
 
 namespace lumel {
 namespace {
-
-constexpr int kGzip = 16 + MAX_WBITS;  // window bits for gzip in deflateInit2()
-constexpr int kMemoryLevel = 8;        // zlib's own default
-// Images are compressed already, and geometry hardly shrinks beyond this.
-constexpr int kLevel = 6;
-
-std::vector<std::uint8_t> gzip(std::span<const std::uint8_t> bytes)
-{
-    z_stream stream{};
-    if (deflateInit2(&stream, kLevel, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
-        throw Error(ErrorKind::output, "", "a page cannot be compressed");
-    std::vector<std::uint8_t> packed(deflateBound(&stream, uLong(bytes.size())));
-    stream.next_in = const_cast<Bytef*>(bytes.data());  // zlib only reads it
-    stream.avail_in = uInt(bytes.size());
-    stream.next_out = packed.data();
-    stream.avail_out = uInt(packed.size());
-    const int state = deflate(&stream, Z_FINISH);
-    packed.resize(stream.total_out);
-    deflateEnd(&stream);
-    if (state != Z_STREAM_END)
-        throw Error(ErrorKind::output, "", "a page cannot be compressed");
-    return packed;
-}
 
 std::string base64(std::span<const std::uint8_t> bytes)
 {

@@ -15,7 +15,7 @@
 #include "base/json/json_file.h"
 #include "results/files/folder.h"
 #include "results/files/glb_builder.h"
-#include "results/page/half_map.h"
+#include "results/files/half_map.h"
 #include "results/page/lamp_list.h"
 #include "results/page/packed_text.h"
 #include "results/page/viewer.h"
@@ -34,7 +34,7 @@ constexpr float kBrightestTexel = 1000.0f;
 /// Errors below this are shown as this.
 constexpr float kLeastError = 1e-4f;
 
-/// scene.glb without its lightmap: the page has its own.
+/// scene.glb without its lightmap and lamps: the page has its own.
 std::vector<std::uint8_t> without_lightmap(const std::string& path)
 {
     const GltfDocument document = load_gltf_document(path, BakeChanges::kept);
@@ -48,6 +48,7 @@ std::vector<std::uint8_t> without_lightmap(const std::string& path)
             }
     for (const std::size_t texture : textures)
         builder.retire_texture(texture);
+    forget_lamps(builder.json);
     builder.release();
     return builder.finish();
 }

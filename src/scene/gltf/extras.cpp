@@ -5,6 +5,8 @@
 namespace lumel {
 namespace {
 
+constexpr const char* kOwnExtras = "lumel";
+constexpr const char* kLamps = "lamps";
 constexpr double kMin = 1e-6, kMax = 1e9;  // [texels/m]
 
 /// An object member, or nullopt. Extras may have any type.
@@ -18,7 +20,7 @@ std::optional<JsonView> object_in(const JsonView& parent, const char* key)
 std::optional<JsonView> own_in_extras(const JsonView& object, const char* key)
 {
     const auto extras = object_in(object, kExtras);
-    const auto own = extras ? object_in(*extras, "lumel") : std::nullopt;
+    const auto own = extras ? object_in(*extras, kOwnExtras) : std::nullopt;
     return own ? own->find(key) : std::nullopt;
 }
 
@@ -40,6 +42,24 @@ int page_in_extras(const JsonView& material)
 {
     const auto page = own_in_extras(material, "page");
     return page ? int(page->integer(0, kMaxPages - 1)) : 0;
+}
+
+std::optional<std::size_t> lamps_view_in_extras(const Json& gltf)
+{
+    const auto asset = gltf.find("asset");
+    const Json* own = asset == gltf.end() ? nullptr : in_extras(*asset, kOwnExtras);
+    if (!own || !own->is_object() || !own->contains(kLamps) || !(*own)[kLamps].is_object())
+        return std::nullopt;
+    const auto view = (*own)[kLamps].find("bufferView");
+    if (view == (*own)[kLamps].end() || !view->is_number_unsigned())
+        return std::nullopt;
+    return view->get<std::size_t>();
+}
+
+void forget_lamps(Json& gltf)
+{
+    if (lamps_view_in_extras(gltf))
+        gltf["asset"][kExtras][kOwnExtras].erase(kLamps);
 }
 
 const Json* in_extras(const Json& object, const char* key)

@@ -1,7 +1,9 @@
 #pragma once
 // Lumel's members of extras.
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 
 #include "base/json/json_view.h"
 
@@ -24,6 +26,12 @@ bool is_probe_in_extras(const JsonView& node);
 /// extras.lumel.page of a material: its lightmap page, written by a bake with several; else 0.
 /// Throws Error{input} if it is invalid.
 int page_in_extras(const JsonView& material);
+
+/// asset.extras.lumel.lamps.bufferView: the maps of lamps in scene.glb, written by a bake with
+/// --per-lamp; empty if absent.
+std::optional<std::size_t> lamps_view_in_extras(const Json& gltf);
+/// Erases asset.extras.lumel.lamps.
+void forget_lamps(Json& gltf);
 
 /// A member of an object's extras; null if there is none.
 const Json* in_extras(const Json& object, const char* key);

@@ -2,9 +2,11 @@
 
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { makeDiffuse } from '../../../../examples/threejs/lightmap.js';
+import { canAdd } from '../../../../addons/three/lamp_sum.js';
+import { lampSurfaces } from '../../../../addons/three/lamp_surfaces.js';
+import { makeDiffuse } from '../../../../addons/three/lightmap.js';
 import { ErrorMap } from './errors.js';
-import { canAdd, LampMap } from './lamp_map.js';
+import { LampMap } from './lamp_map.js';
 import { readLightmap } from './lightmap.js';
 
 // Unpacks base64 of gzip.
@@ -55,24 +57,6 @@ function firstView(gltf, preview) {
     return camera;
 }
 
-// Names by which a lamp may list a surface: its node, or its material.
-const namesOf = (object) =>
-    [object, object.parent].map(({ name, userData }) => userData.name ?? name).concat(object.material.name);
-
-// Lamps with the materials of their own surfaces, which shine with them.
-function withSurfaces(lamps, scene) {
-    const shining = [];
-    scene.traverse((object) => {
-        const { r = 0, g = 0, b = 0 } = object.material?.emissive ?? {};
-        if (r + g + b > 0) shining.push(object);
-    });
-    // Surfaces of several lamps can share a material.
-    for (const object of shining) object.material = object.material.clone();
-    return lamps.map((lamp) => ({ ...lamp,
-        surfaces: shining.filter((object) => namesOf(object).some((name) => lamp.members.includes(name)))
-            .map(({ material }) => ({ material, emissive: material.emissive.clone() })) }));
-}
-
 /** One baked folder: its report, its scene lit by its lightmap, and the first view. */
 async function readBake(renderer, { name, report, glb, lightmap, unit, pages_across: pagesAcross, errors,
     least_error: leastError, lamps }) {
@@ -87,7 +71,7 @@ async function readBake(renderer, { name, report, glb, lightmap, unit, pages_acr
         errors: errorBytes.length > 0 ? new ErrorMap(errorBytes, map.width, map.height, leastError) : null,
         scene: gltf.scene,
         lit: bindLightmap(gltf.scene, map),
-        lamps: dimmed ? withSurfaces(lamps.list, gltf.scene) : [],
+        lamps: dimmed ? lampSurfaces(gltf.scene, lamps.list).map((surfaces, k) => ({ ...lamps.list[k], surfaces })) : [],
         exposure: gltf.asset.extras?.lumel?.exposure ?? report.solution.exposure ?? 1, // [1/lx]
         camera: firstView(gltf, report.preview),
     };

@@ -1,5 +1,6 @@
 // A slider, a colour and a switch for each lamp; presets. The page's address holds the state.
 
+import { dim } from '../../../../addons/three/lamp_surfaces.js';
 import { percentText } from './colours.js';
 import { element } from './facts.js';
 import { gainOf, hashOf, hexOf, readHash, stateOf } from './lighting.js';
@@ -25,8 +26,7 @@ function apply(bakes, states) {
         lamps.forEach((lamp, index) => {
             const gain = gainOf(lamp, states.get(lamp.name));
             map.setGain(index, gain);
-            for (const { material, emissive } of lamp.surfaces)
-                material.emissive.setRGB(emissive.r * gain[0], emissive.g * gain[1], emissive.b * gain[2]);
+            dim(lamp.surfaces, gain);
         });
 }
 

@@ -1,13 +1,11 @@
 // The state of the lamps: how far each is dimmed, its colour and its switch; presets of such states; all as text.
 
+import { lampGain } from '../../../../addons/three/lamp_gain.js';
+
 const defaults = { factor: 1, on: true, colour: '' };
 const mostFactor = 2;
-const luxShares = [0.2126, 0.7152, 0.0722];
-const leastChannel = 0.01; // of a lamp's colour: below, its map has too little light to be recoloured
-
 const linear = (value) => value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
 const coded = (value) => value <= 0.0031308 ? value * 12.92 : 1.055 * value ** (1 / 2.4) - 0.055;
-const weighed = (rgb) => rgb.reduce((sum, value, channel) => sum + value * luxShares[channel], 0);
 
 /** "#ffaa00" of linear RGB. */
 export const hexOf = (rgb) => `#${rgb.map((value) =>
@@ -16,11 +14,7 @@ export const hexOf = (rgb) => `#${rgb.map((value) =>
 /** Factor of a lamp's map in linear RGB. A new colour keeps the lamp's illuminance. */
 export function gainOf({ color }, { factor, on, colour }) {
     if (!on) return [0, 0, 0];
-    if (!colour) return [factor, factor, factor];
-    const chosen = [1, 3, 5].map((at) => linear(parseInt(colour.slice(at, at + 2), 16) / 255));
-    const ratio = chosen.map((value, channel) => color[channel] < leastChannel ? 1 : value / color[channel]);
-    const lux = weighed(ratio.map((value, channel) => value * color[channel]));
-    return ratio.map((value) => lux > 0 ? factor * value * weighed(color) / lux : 0);
+    return lampGain(color, factor, colour && [1, 3, 5].map((at) => linear(parseInt(colour.slice(at, at + 2), 16) / 255)));
 }
 
 /** State of one lamp, from what may be wrong. */

@@ -8,7 +8,7 @@
 
 namespace lumel {
 
-/// Irradiance of a lamp for viewer/half_map.js. A texel has a code of its illuminance Y,
+/// Irradiance of a lamp for addons/three/half_map.js. A texel has a code of its illuminance Y,
 ///     Y = brightest 2^((code - 4095) / 256),  0: none,
 /// and two of the shares of red and blue in it: 0.2126 R / Y = (code / 255)², 0.0722 B / Y
 /// likewise. Codes are stored as differences from a prediction by the texels to the left and above.

@@ -1,6 +1,6 @@
 // Prediction: the median edge detector of LOCO-I [WSS00].
 
-#include "results/page/half_map.h"
+#include "results/files/half_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,8 @@ namespace {
 constexpr int kBrightestCode = 4095;
 constexpr float kCodesPerStop = 256.0f;  // steps of 0.27 %, over 16 stops
 constexpr float kShareCodes = 255.0f;
-/// Filtered lookups reach one texel beyond a chart, and the window of viewer/lamp_map.js one more.
+/// Filtered lookups reach one texel beyond a chart, and the window of addons/three/lamp_sum.js one
+/// more.
 constexpr int kReach = 2;
 constexpr glm::vec3 kLuxShares{0.2126f, 0.7152f, 0.0722f};  // of Rec. 709
 

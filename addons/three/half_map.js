@@ -1,4 +1,4 @@
-// Lamps' maps at half the size, see ../half_map.h: from their bytes to texels of shared exponents.
+// Lamps' maps at half the size, see src/results/files/half_map.h: from their bytes to texels of shared exponents.
 
 const brightestCode = 4095, codesPerStop = 256, shareCodes = 255;
 const luxShares = [0.2126, 0.7152, 0.0722];

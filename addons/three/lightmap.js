@@ -4,6 +4,7 @@ import * as THREE from 'three';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
+import { lampsOf } from './lamps.js';
 
 /** A plugin of GLTFLoader that binds what MOZ_lightmap names. */
 export class LightmapPlugin {
@@ -27,7 +28,7 @@ export function makeDiffuse(gltf) {
     });
 }
 
-/** Loads a scene.glb and sets the renderer's exposure for it. */
+/** Loads a scene.glb and sets the renderer's exposure for it. The result also has the lamps, see lampsOf(). */
 export async function loadLitScene(renderer, url) {
     const loader = new GLTFLoader();
     loader.setKTX2Loader(new KTX2Loader().detectSupport(renderer));
@@ -37,7 +38,7 @@ export async function loadLitScene(renderer, url) {
     // White paint that receives H lx sends H / π, and shows as AgX of exposure × H.
     renderer.toneMapping = THREE.AgXToneMapping;
     renderer.toneMappingExposure = Math.PI * gltf.asset.extras.lumel.exposure;
-    return gltf;
+    return Object.assign(gltf, await lampsOf(renderer, gltf));
 }
 
 /** Binds lightmap.exr to a scene.glb whose MOZ_lightmap a tool has dropped, but not its extras. */

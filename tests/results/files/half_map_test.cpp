@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
-#include "results/page/half_map.h"
+#include "results/files/half_map.h"
 
 namespace lumel {
 namespace {

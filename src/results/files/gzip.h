@@ -1,0 +1,13 @@
+#pragma once
+// Compression that browsers can undo.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lumel {
+
+/// The bytes as gzip (RFC 1952). At most 4 GiB.
+std::vector<std::uint8_t> gzip(std::span<const std::uint8_t> bytes);
+
+}  // namespace lumel
