@@ -35,29 +35,15 @@ struct GivenLinks {
     std::vector<LampGroup> groups;
 };
 
-LampGroup lamp_group(const std::string& text)
-{
-    const std::size_t equals = text.find('=');
-    if (equals == text.npos || equals == 0 || equals + 1 == text.size())
-        refuse_value(fmt::format("--group: '{}' is not of the form NAME=PATTERN", text));
-    return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
 void add_lamp_options(Command& command, GivenLinks& links)
 {
-    command.add(
-        kLightmapGroup,
-        {{"--per-lamp", "",
-          "Also write a map for each lamp, emissive object, sun and sky, which add up to "
-          "the lightmap: lamp-NAME.exr and lamps.json, for the sliders of lumel report "
-          "(only links)",
-          &links.per_lamp},
-         {.names = "--group",
-          .type = "NAME=PATTERN",
-          .help = "Keep all lamps whose names fit the pattern as one, such as "
-                  "kitchen='lamp_k*'; turns --per-lamp on",
-          .target = [&links](const std::string& text) { links.groups.push_back(lamp_group(text)); },
-          .repeatable = true}});
+    command.add(kLightmapGroup,
+                {{"--per-lamp", "",
+                  "Also write a map for each lamp, emissive object, sun and sky, which add up to "
+                  "the lightmap: lamp-NAME.exr and lamps.json, for the sliders of lumel report "
+                  "(only links)",
+                  &links.per_lamp}});
+    add_group_option(command, kLightmapGroup, "--per-lamp", links.groups);
 }
 
 void add_links_options(Command& command, GivenLinks& links)

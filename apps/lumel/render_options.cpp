@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kMaxPlaces = 256;
 constexpr int kMaxRays = 4096;
+constexpr const char* kSeedOption = "seed";
 constexpr double kMaxKept = 1000.0;  // frames
 
 void add_film_options(Command& command, FilmOptions& film)
@@ -67,6 +68,16 @@ void add_sample_options(Command& command, RenderOptions& options)
           &options.paths, "", whole(1, kMaxPaths)}});
 }
 
+/// Images of lamps are made from the light of links, whose seed is the only option of a method that
+/// they read.
+LinksOptions links_of(const GivenMethod& given, std::vector<LampGroup> groups)
+{
+    for (const auto& [option, value] : given.values)
+        if (option != kSeedOption)
+            throw Error(ErrorKind::input, "--" + option, "is not read with --layers");
+    return {.seed = seed_of(given.options()), .per_lamp = true, .groups = std::move(groups)};
+}
+
 }  // namespace
 
 Command render_command()
@@ -85,6 +96,14 @@ Command render_command()
                   .required = true}});
     add_picture_options(command, options.camera, options.width);
     add_sample_options(command, options);
+    const auto groups = std::make_shared<std::vector<LampGroup>>();
+    command.add(
+        kPictureGroup,
+        {{"--layers", "",
+          "Also write an image of each lamp, as EXR and as a layer for web pages, and light "
+          "the scene as lumel bake does",
+          &options.layers}});
+    add_group_option(command, kPictureGroup, "--layers", *groups);
     add_film_options(command, options.film);
     add_light_options(command, options.bake.lights);
     add_sky_directions_option(command, options.bake);
@@ -94,9 +113,15 @@ Command render_command()
     add_device_option(command, options.bake.device);
     add_dump_option(command, options.bake.dump);
     add_talk_options(command, given->talk);
-    command.arguments = [given, method](const Command& parsed) -> Arguments {
+    command.arguments = [given, method, groups](const Command& parsed) -> Arguments {
         SolverOptions& solver = given->options.bake.solver;
-        solver.method = method->options();
+        given->options.layers |= !groups->empty();
+        if (given->options.layers) {
+            solver.method = links_of(*method, std::move(*groups));
+            given->options.bake.atlas.sides = Sides::automatic;
+        } else {
+            solver.method = method->options();
+        }
         set_default_target(parsed, solver);
         if (parsed.given("--lobe-rays") && is_papers(solver.method))
             throw Error(ErrorKind::input, "--lobe-rays",

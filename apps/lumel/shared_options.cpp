@@ -46,6 +46,14 @@ DensityRule density_rule(const std::string& text)
     return {text.substr(0, equals), float(*density)};
 }
 
+LampGroup lamp_group(const std::string& text)
+{
+    const std::size_t equals = text.find('=');
+    if (equals == text.npos || equals == 0 || equals + 1 == text.size())
+        refuse_value(fmt::format("--group: '{}' is not of the form NAME=PATTERN", text));
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
 }  // namespace
 
 Option scene_argument(std::string& scene)
@@ -264,6 +272,20 @@ void add_directional_option(Command& command, Directional& directional)
                                         {"--directional", "",
                                          "Also store the direction of incident light, as spherical "
                                          "harmonics of order 1 or 2"})});
+}
+
+void add_group_option(Command& command, const char* title, const std::string& implied,
+                      std::vector<LampGroup>& groups)
+{
+    command.add(
+        title,
+        {{.names = "--group",
+          .type = "NAME=PATTERN",
+          .help = "Keep all lamps whose names fit the pattern as one, such as "
+                  "kitchen='lamp_k*'; turns " +
+                  implied + " on",
+          .target = [&groups](const std::string& text) { groups.push_back(lamp_group(text)); },
+          .repeatable = true}});
 }
 
 void add_device_option(Command& command, std::string& device)

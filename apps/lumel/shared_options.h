@@ -3,6 +3,7 @@
 // options.
 
 #include <string>
+#include <vector>
 
 #include "arguments.h"
 #include "command.h"
@@ -65,6 +66,10 @@ void add_half_option(Command& command, bool& half);
 void add_only_option(Command& command, Parts& parts);
 
 void add_directional_option(Command& command, Directional& directional);
+
+/// --group, which turns another option on. title: above it.
+void add_group_option(Command& command, const char* title, const std::string& implied,
+                      std::vector<LampGroup>& groups);
 
 void add_device_option(Command& command, std::string& device);
 

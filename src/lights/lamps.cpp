@@ -146,15 +146,15 @@ LampTable find_lamps(const Scene& scene, const Lumels& lumels, const LightSource
 {
     const std::vector<LightSource> all = all_sources(scene, lumels, sources);
     if (all.empty())
-        throw Error(ErrorKind::input, "--per-lamp", "needs a lamp, and the scene has none");
+        throw Error(ErrorKind::input, scene.path, "has no lamp whose light can be kept apart");
     check_groups(all, groups);
     LampTable lamps;
     const std::vector<std::uint32_t> lamp_of = join(scene, all, groups, lamps.all);
     if (lamps.all.size() > kMaxLamps)
-        throw Error(ErrorKind::input, "--per-lamp",
-                    fmt::format("keeps at most {} lamps apart, and the scene has {}; join some by "
+        throw Error(ErrorKind::input, scene.path,
+                    fmt::format("has {} lamps, and at most {} can be kept apart; join some by "
                                 "--group NAME=PATTERN",
-                                kMaxLamps, lamps.all.size()));
+                                lamps.all.size(), kMaxLamps));
     assign_sources(sources, all, lamp_of, lamps);
     return lamps;
 }

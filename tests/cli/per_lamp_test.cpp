@@ -90,7 +90,8 @@ TEST(PerLamp, MapsAddUpInEverySceneOfTheProject)
         const Outcome outcome =
             run_lumel(bake_of(entry.path().string(), place.path("out"), {"--per-lamp"}));
         if (outcome.code != 0) {
-            EXPECT_NE(outcome.err.find("error: --per-lamp: needs a lamp"), std::string::npos)
+            EXPECT_NE(outcome.err.find("has no lamp whose light can be kept apart"),
+                      std::string::npos)
                 << entry.path() << ": " << outcome.err;
             continue;
         }

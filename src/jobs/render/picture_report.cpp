@@ -30,7 +30,10 @@ Report picture_report(const RenderOptions& options, const SolveScene& prepared,
     report.settings["sky-directions"] = options.bake.sky_directions;
     add_picture(report, options);
     report.settings["places"] = options.sets;
-    report.settings["eye-shots"] = options.shots;
+    if (options.layers)
+        report.settings["layers"] = true;
+    else
+        report.settings["eye-shots"] = options.shots;
     report.settings["lobe-rays"] = options.rays;
     report.solver = solver_settings(options.bake.solver);
     return report;

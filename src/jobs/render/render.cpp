@@ -13,6 +13,8 @@
 #include "base/images/image_files.h"
 #include "base/json/json_file.h"
 #include "jobs/bake/reference.h"
+#include "jobs/render/layers.h"
+#include "jobs/render/picture_file.h"
 #include "jobs/render/picture_report.h"
 #include "jobs/solve/dump.h"
 #include "jobs/solve/lighting.h"
@@ -31,13 +33,6 @@
 namespace lumel {
 namespace {
 
-constexpr int kLargestPicture = 16384;  ///< side [pixels]
-
-bool is_exr(const std::string& path)
-{
-    return path.ends_with(".exr");
-}
-
 /// Checks for failures before the long work.
 void check(const std::string& path, const RenderOptions& options)
 {
@@ -53,6 +48,8 @@ void check(const std::string& path, const RenderOptions& options)
         throw Error(ErrorKind::input, "--frames", "cannot be used with --paths or --dump");
     if (options.paths > 0 && !options.bake.dump.empty())
         throw Error(ErrorKind::input, "--dump", "has no effect with --paths");
+    if (options.layers)
+        check_layers(options);
     const OutputFile can_be_written(path);
 }
 
@@ -66,18 +63,6 @@ void check_size(const gpu::Device& device, const RenderOptions& options)
         throw Error(ErrorKind::input, "--width " + std::to_string(options.width),
                     "makes an image of " + std::to_string(pixels) + " pixels, more than the " +
                         std::to_string(most) + " that this device can hold with these --places");
-}
-
-/// The requested view, with the aspect of the image.
-View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
-{
-    check_camera(scene, options.camera);
-    View view = options.camera >= 0 ? view_of(scene.cameras[std::size_t(options.camera)])
-                                    : choose_view(scene, rays);
-    if (options.height == 0)
-        options.height = picture_height(options.width, view.aspect, kLargestPicture);
-    view.aspect = float(options.width) / float(options.height);  // pixels are square
-    return view;
 }
 
 /// Light of the lobes at the points seen [G] [cd/m²], by shooters. Every set of points receives
@@ -136,37 +121,6 @@ std::vector<glm::vec3> look_up_accumulated(GlossyIllumination& solver, const Lum
         finish_sides(prepared.scene, prepared.atlas, prepared.lumels,
                      by_lumel(sight, solver.eye_radiance(), prepared.lumels.lumels.size()));
     return look_up(seen, prepared, texture.front, texture.back);
-}
-
-/// Divides colours by alpha, as for PNG.
-Image unmultiplied(Image image)
-{
-    for (std::size_t i = 0; i < image.values.size(); i += 4)
-        if (const float alpha = image.values[i + 3]; alpha > 0.0f)
-            for (std::size_t c = 0; c < 3; ++c)
-                image.values[i + c] /= alpha;
-    return image;
-}
-
-/// Returns the exposure of a PNG [m²/cd]: `given` if there is one.
-std::optional<float> write_picture(const std::string& path, const Image& image,
-                                   std::optional<float> given = {})
-{
-    OutputFile file(path);
-    std::optional<float> exposure;
-    if (is_exr(path)) {
-        write_exr(file.path(), image, Precision::float32,
-                  {{"quantity", "radiance"},
-                   {"unit", "cd/m2"},
-                   {"colorSpace", "linear Rec. 709"},
-                   {"software", "lumel " + lumel_version()}});
-    } else {
-        const Image shown = unmultiplied(image);
-        exposure = given ? *given : choose_exposure(shown).value_or(1.0f);
-        write_png(file.path(), tone_map(shown, *exposure));
-    }
-    file.commit();
-    return exposure;
 }
 
 /// An image and its report.
@@ -250,9 +204,10 @@ Made shoot(Lit& frame, Lit* before, const gpu::Device& device, const RenderOptio
     const Seen seen = look(frame.view, options.width, options.height, options.sets, prepared.rays,
                            prepared.surfaces, prepared.scene.sky,
                            [&](double fraction) { return stages.progress(fraction); });
-    Image image = compose(seen, lit,
-                          papers ? look_up_accumulated(solver, sight, seen, prepared)
-                                 : reflect(solver, seen, setting, lit, options, stages));
+    Image image = std::move(compose(seen, lit,
+                                    papers ? look_up_accumulated(solver, sight, seen, prepared)
+                                           : reflect(solver, seen, setting, lit, options, stages))
+                                .front());
     stages.end();
     device.check_validation();
     const Results results{.shots = solver.state().shots,
@@ -360,6 +315,8 @@ RenderSummary render(const std::string& scene_path, const std::string& picture_p
     Stages stages(progress);
     stages.begin("reading");
     Scene scene = read_scene(scene_path, MaterialModel::glossy, options.bake.lights);
+    if (options.layers)
+        return summary_of(render_layers(std::move(scene), picture_path, options, stages));
     if (options.film.frames > 0)
         return summary_of(film(scene, picture_path, options, progress));
     Made made = make(std::move(scene), options, stages);

@@ -22,8 +22,8 @@ struct FilmOptions {
 };
 
 struct RenderOptions {
-    /// The solution that the image is made from; its method is GlossyOptions. No map is shown, so
-    /// its sides can share texels.
+    /// The solution that the image is made from; its method is GlossyOptions without layers. No map
+    /// is shown, so its sides can share texels.
     BakeOptions bake{.atlas = {.sides = Sides::brighter}, .solver = {.method = GlossyOptions{}}};
     int camera = -1;          ///< index in the file; -1: the first, or a generated one
     int width = 1280;         ///< [pixels]
@@ -34,6 +34,9 @@ struct RenderOptions {
     std::uint32_t rays = 4;   ///< along the lobe at each sample
     FilmOptions film;         ///< for files only; scenes in memory have no animation
     int paths = 0;            ///< > 0: path traces on the CPU instead, with this number per pixel
+    /// Also an image of each lamp, for files only; bake.solver.method is LinksOptions, which keeps
+    /// lamps apart.
+    bool layers = false;
 };
 
 struct RenderSummary {
@@ -56,7 +59,8 @@ struct Rendered {
 Rendered render(Scene scene, const RenderOptions& options, const ProgressFunction& progress = {});
 
 /// Renders to a file: radiance for .exr, tone-mapped for .png. A film's frames are numbered:
-/// picture-0001.png, all with the exposure of the first; the summary is of the last.
+/// picture-0001.png, all with the exposure of the first; the summary is of the last. Layers: see
+/// render_layers().
 RenderSummary render(const std::string& scene_path, const std::string& picture_path,
                      const RenderOptions& options, const ProgressFunction& progress = {});
 

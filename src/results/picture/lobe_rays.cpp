@@ -17,7 +17,6 @@
 #include <limits>
 
 #include "base/core/parallel.h"
-#include "base/core/pi.h"
 #include "lights/source_choice.h"
 #include "methods/glossy/phong.h"
 #include "rays/paths/samples.h"
@@ -49,10 +48,11 @@ public:
     {
     }
 
-    /// One estimate of the light that a point reflects to the eye.
-    glm::vec3 estimate(EyePoint x, const PathSamples& samples) const
+    /// Adds one estimate of the light that a point reflects to the eye, of each layer: all layers
+    /// follow the same rays, so they add up to the light of all lamps.
+    void estimate(EyePoint x, const PathSamples& samples, std::span<glm::vec3> sum) const
     {
-        glm::vec3 sum(0.0f), throughput(1.0f);
+        glm::vec3 throughput(1.0f);
         for (std::uint32_t lobe = 0; lobe < kMaxLobes; ++lobe) {
             const std::uint32_t pair = kPairsPerLobe * lobe;
             const Techniques techniques = techniques_at(lobe);
@@ -61,9 +61,9 @@ public:
                 break;
             const glm::vec3 mirror = 2.0f * cos_eye * x.normal - x.toward_eye;
             if (techniques.seeks)
-                sum += throughput * sought(x, mirror, samples, pair);
+                add_sought(x, mirror, samples, pair, throughput, sum);
             if (lit_.lamps().count() > 0)
-                sum += throughput * lamplight(x, mirror, samples, pair);
+                add_lamplight(x, mirror, samples, pair, throughput, sum);
 
             const glm::vec3 direction = phong_direction(
                 mirror, x.shininess, lobe == 0 ? samples.stratified(pair) : samples.random(pair));
@@ -78,14 +78,14 @@ public:
                               samples.bits(pair), hit);
             throughput *= hit.tint;
             if (!met) {
-                sum += throughput * lit_.sky(direction);  // found by no other technique
+                lit_.add_sky(direction, throughput, sum);  // found by no other technique
                 break;
             }
             const Shading there = surfaces_.shade(hit);
             const float rays =
                 techniques.rays * phong_density(glm::dot(mirror, direction), x.shininess);
             const float others = techniques.others * density(hit, direction);
-            sum += throughput * sent(there, hit) * (rays > 0.0f ? rays / (rays + others) : 0.0f);
+            add_sent(there, hit, throughput * (rays > 0.0f ? rays / (rays + others) : 0.0f), sum);
 
             if (there.reflectance.specular == glm::vec3(0.0f))
                 break;
@@ -100,7 +100,6 @@ public:
                  there.reflectance.specular,
                  there.reflectance.shininess};
         }
-        return sum;
     }
 
 private:
@@ -119,10 +118,11 @@ private:
         return {1.0f, seeks ? 1.0f : 0.0f, seeks};
     }
 
-    /// Diffuse radiance of y [cd/m²].
-    glm::vec3 sent(const Shading& there, const RayHit& hit) const
+    /// Adds the diffuse radiance of y × weight [cd/m²].
+    void add_sent(const Shading& there, const RayHit& hit, const glm::vec3& weight,
+                  std::span<glm::vec3> sum) const
     {
-        return there.luminance + there.reflectance.diffuse * lit_.irradiance(hit) / kPi;
+        lit_.add_light(hit, there.luminance, there.reflectance.diffuse, weight, sum);
     }
 
     /// q_A of a hit: density of drawing y by power [1/sr].
@@ -135,10 +135,10 @@ private:
         return senders_.density(j) * hit.distance * hit.distance / cos_there;
     }
 
-    /// Light that x reflects to the eye from a y drawn by power, weighted against rays along the
-    /// lobe.
-    glm::vec3 sought(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
-                     std::uint32_t pair) const
+    /// Adds the light that x reflects to the eye from a y drawn by power, weighted against rays
+    /// along the lobe, × throughput.
+    void add_sought(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
+                    std::uint32_t pair, const glm::vec3& throughput, std::span<glm::vec3> sum) const
     {
         const double place = double(samples.random(pair + 2).x) * senders_.power();
         const std::uint32_t j = senders_.lumel(place);
@@ -149,23 +149,25 @@ private:
                     cos_eye = glm::dot(x.normal, x.toward_eye);
         const float along = phong_density(glm::dot(mirror, direction), x.shininess);
         if (!(along > 0.0f) || cos_in <= 0.0f || !(glm::dot(x.facing, direction) > 0.0f))
-            return glm::vec3(0.0f);
+            return;
         RayHit hit;
         if (!rays_.closest(origin, direction, 0.0f, std::numeric_limits<float>::max(),
                            samples.bits(pair + 2), hit) ||
             lit_.lumel(hit) != j)
-            return glm::vec3(0.0f);
+            return;
         const float drawn = density(hit, direction);
         if (!(drawn > 0.0f))
-            return glm::vec3(0.0f);
+            return;
         const float reflects = along * cos_in / std::max(cos_in, cos_eye);
-        return hit.tint * x.specular * sent(surfaces_.shade(hit), hit) *
-               (reflects / (drawn + along));
+        add_sent(surfaces_.shade(hit), hit,
+                 throughput * hit.tint * x.specular * (reflects / (drawn + along)), sum);
     }
 
-    /// Light that x reflects to the eye from the lamps: one of them, selected by it.
-    glm::vec3 lamplight(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
-                        std::uint32_t pair) const
+    /// Adds the light that x reflects to the eye from the lamps × throughput: of each layer one
+    /// lamp, selected by it.
+    void add_lamplight(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
+                       std::uint32_t pair, const glm::vec3& throughput,
+                       std::span<glm::vec3> sum) const
     {
         const LightSources& lamps = lit_.lamps();
         const RayOrigin start{.position = x.position + ray_offset_ * x.facing,
@@ -173,17 +175,21 @@ private:
                               .geometric = x.facing,
                               .cell = 0};
         const float cos_eye = glm::dot(x.normal, x.toward_eye);
-        SourceChoice choice(double(samples.random(pair + 5).x));
-        for (std::size_t i = 0; i < lamps.count(); ++i) {
-            const SourceSample lamp = lamps.sample(i, start, samples.random(pair + 4));
-            const float lobe = phong_lobe(start.cosine(lamp.direction), cos_eye,
-                                          glm::dot(mirror, lamp.direction), x.shininess);
-            choice.offer(lamp, x.specular * lamp.irradiance * lobe);
+        for (std::size_t layer = 0; layer < lit_.layers(); ++layer) {
+            SourceChoice choice(double(samples.random(pair + 5).x));
+            for (std::size_t i = 0; i < lamps.count(); ++i) {
+                if (lit_.layer_of_lamp(i) != layer)
+                    continue;
+                const SourceSample lamp = lamps.sample(i, start, samples.random(pair + 4));
+                const float lobe = phong_lobe(start.cosine(lamp.direction), cos_eye,
+                                              glm::dot(mirror, lamp.direction), x.shininess);
+                choice.offer(lamp, x.specular * lamp.irradiance * lobe);
+            }
+            if (!choice.empty())
+                sum[layer] +=
+                    throughput * choice.light() *
+                    transmittance_to(rays_, choice.sample(), start, samples.bits(pair + 4));
         }
-        if (choice.empty())
-            return glm::vec3(0.0f);
-        return choice.light() *
-               transmittance_to(rays_, choice.sample(), start, samples.bits(pair + 4));
     }
 
     /// Weight by Russian roulette before another lobe: 0 for rays that end.
@@ -210,7 +216,8 @@ std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, cons
                                           const std::function<bool(double)>& progress)
 {
     const LobeRays lobes(lit, senders, options);
-    std::vector<glm::vec3> radiance(points.size(), glm::vec3(0.0f));
+    const std::size_t layers = lit.layers();
+    std::vector<glm::vec3> radiance(points.size() * layers, glm::vec3(0.0f));
     // One ray of every point at a time: with the weights of the requested number, fewer are correct
     // too.
     std::uint32_t taken = 0;
@@ -218,7 +225,8 @@ std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, cons
         const auto follow = [&](std::size_t first, std::size_t last) {
             for (std::size_t e = first; e < last; ++e) {
                 const std::uint32_t stream = PathSamples::hash(options.seed, std::uint32_t(e));
-                radiance[e] += lobes.estimate(points[e], PathSamples(stream, taken));
+                lobes.estimate(points[e], PathSamples(stream, taken),
+                               std::span(radiance).subspan(e * layers, layers));
             }
         };
         const auto report = [&](std::size_t done) {

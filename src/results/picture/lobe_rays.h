@@ -18,9 +18,9 @@ struct LobeRayOptions {
     std::uint32_t seed = 1;
 };
 
-/// [P] cd/m² toward the eye, weighted against the shooters by the balance heuristic [VG95].
-/// senders: with the brightness of the shooters' weights. `progress` receives the fraction done and
-/// returns false to stop; all points then have equally many rays, at least one.
+/// [P][lit.layers()] cd/m² toward the eye, weighted against the shooters by the balance heuristic
+/// [VG95]. senders: with the brightness of the shooters' weights. `progress` receives the fraction
+/// done and returns false to stop; all points then have equally many rays, at least one.
 std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const LitScene& lit,
                                           const PowerDraw& senders, const LobeRayOptions& options,
                                           const std::function<bool(double)>& progress = {});

@@ -1,0 +1,65 @@
+#include "jobs/render/picture_file.h"
+
+#include "base/images/image_files.h"
+#include "results/files/folder.h"
+#include "results/preview/view.h"
+#include "results/record/origin.h"
+
+namespace lumel {
+namespace {
+
+constexpr int kLargestPicture = 16384;  ///< side [pixels]
+
+}  // namespace
+
+bool is_exr(const std::string& path)
+{
+    return path.ends_with(".exr");
+}
+
+View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
+{
+    check_camera(scene, options.camera);
+    View view = options.camera >= 0 ? view_of(scene.cameras[std::size_t(options.camera)])
+                                    : choose_view(scene, rays);
+    if (options.height == 0)
+        options.height = picture_height(options.width, view.aspect, kLargestPicture);
+    view.aspect = float(options.width) / float(options.height);  // pixels are square
+    return view;
+}
+
+Image unmultiplied(Image image)
+{
+    for (std::size_t i = 0; i < image.values.size(); i += 4)
+        if (const float alpha = image.values[i + 3]; alpha > 0.0f)
+            for (std::size_t c = 0; c < 3; ++c)
+                image.values[i + c] /= alpha;
+    return image;
+}
+
+void write_radiance(const std::string& path, const Image& image)
+{
+    write_exr(path, image, Precision::float32,
+              {{"quantity", "radiance"},
+               {"unit", "cd/m2"},
+               {"colorSpace", "linear Rec. 709"},
+               {"software", "lumel " + lumel_version()}});
+}
+
+std::optional<float> write_picture(const std::string& path, const Image& image,
+                                   std::optional<float> given)
+{
+    OutputFile file(path);
+    std::optional<float> exposure;
+    if (is_exr(path)) {
+        write_radiance(file.path(), image);
+    } else {
+        const Image shown = unmultiplied(image);
+        exposure = given ? *given : choose_exposure(shown).value_or(1.0f);
+        write_png(file.path(), tone_map(shown, *exposure));
+    }
+    file.commit();
+    return exposure;
+}
+
+}  // namespace lumel
