@@ -19,9 +19,10 @@ function draw() {
     renderer.render(scene, camera);
 }
 
+const ahead = new THREE.Vector3(0, 0, -2).applyQuaternion(camera.quaternion).add(camera.position);
 const controls = new OrbitControls(camera, canvas);
-const ahead = new THREE.Vector3(0, 0, -1).applyQuaternion(camera.quaternion);
-controls.target.copy(camera.position).addScaledVector(ahead, 2);
+controls.target.copy(ahead);
+controls.update();
 controls.addEventListener('change', draw);
 
 for (const name of gltf.lamps) {

@@ -3,12 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/core/lattice.h"
 #include "base/images/tone_curve.shared.h"
 
 namespace lumel {
 namespace {
 
 constexpr float kMidGrey = 0.18f;
+constexpr float kWhiteCode = 255.0f;
+
+/// In [0, 1): values of adjacent pixels, and of the layers at a pixel, are spread evenly [Rob18].
+float threshold(int x, int y, std::uint32_t layer)
+{
+    // 2³² / g, / g², / g³; g⁴ = g + 1
+    constexpr std::uint32_t kX = 3518319155u, kY = 2882110345u, kLayer = 2360945575u;
+    return unit_float(std::uint32_t(x) * kX + std::uint32_t(y) * kY + layer * kLayer);
+}
 
 /// k: mid grey shows as tone_curve() shows it, at a code of at least 1/2, where n is its square.
 float steepness()
@@ -19,20 +29,18 @@ float steepness()
 
 }  // namespace
 
-Image page_layer(const Image& radiance, float exposure)
+Image page_layer(const Image& radiance, float exposure, std::uint32_t number)
 {
     const float k = steepness() * exposure;
     Image layer(radiance.width, radiance.height, 3);
-    for (std::size_t i = 0; i < radiance.values.size() / 4; ++i)
-        for (std::size_t c = 0; c < 3; ++c)
-            layer.values[3 * i + c] =
-                1.0f - std::exp(-k * std::max(radiance.values[4 * i + c], 0.0f));
+    for (int y = 0; y < layer.height; ++y)
+        for (int x = 0; x < layer.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const float n = 1.0f - std::exp(-k * std::max(radiance.at(x, y)[c], 0.0f));
+                layer.at(x, y)[c] =
+                    std::floor(n * kWhiteCode + threshold(x, y, number)) / kWhiteCode;
+            }
     return layer;
-}
-
-float shown_below_white(float layer)
-{
-    return layer >= 0.25f ? std::sqrt(layer) : ((16.0f * layer - 12.0f) * layer + 4.0f) * layer;
 }
 
 }  // namespace lumel
