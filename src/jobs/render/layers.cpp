@@ -75,7 +75,10 @@ std::vector<std::string> write_layers(const std::string& path, const Image& all,
             layer + ".exr", [&](const std::string& at) { write_radiance(at, images[k]); }, files);
         write_one(
             layer + ".png",
-            [&](const std::string& at) { write_png(at, page_layer(images[k], exposure, std::uint32_t(k))); }, files);
+            [&](const std::string& at) {
+                write_png(at, page_layer(images[k], exposure, std::uint32_t(k)));
+            },
+            files);
     }
     Image plain(all.width, all.height, 3);
     const auto write_plain = [&](const std::string& at) { write_png(at, plain); };
