@@ -14,6 +14,8 @@
 #include "base/images/image_files.h"
 #include "hand_atlas.h"
 #include "results/files/gltf_write.h"
+#include "results/files/gzip.h"
+#include "results/files/half_map.h"
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
 
@@ -176,6 +178,55 @@ TEST(GltfWrite, ProfilesOfLampsThatAreBakedKeepTheirData)
     const Scene again = read_gltf(folder / "scene.glb");
     ASSERT_EQ(again.profiles.size(), 1u);
     EXPECT_EQ(again.profiles[0].candela, scene.profiles[0].candela);
+}
+
+TEST(GltfWrite, MapsOfLampsAreInSceneGlbUntilTheNextBake)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "lamp.gltf") << lamp_scene();
+    const Scene scene = read_gltf(folder / "lamp.gltf");
+    const Atlas atlas = test::corner_atlas(scene);
+    const Image map = test::any_map(atlas);
+    const SceneLamp lamp{.name = "bulb",
+                         .kind = "point",
+                         .members = {"bulb"},
+                         .color = {1.0, 0.5, 0.25},
+                         .error = 0.125,
+                         .map = &map};
+    const std::vector<SceneLamp> lamps(2, lamp);
+    const auto write = [&](const char* name, const std::string& from, LightmapFormat format,
+                           std::span<const SceneLamp> with) {
+        write_scene_glb(folder / name, load_gltf_document(from), read_gltf(from), atlas, map,
+                        {.format = format, .lamps = with});
+        return load_gltf_document(folder / name);
+    };
+    const GltfDocument lit = write("scene.glb", scene.path, LightmapFormat::png, lamps);
+    const Json& told = lit.json["asset"]["extras"]["lumel"]["lamps"];
+    const HalfMap half = half_map(map);
+    EXPECT_EQ(told["list"][1], (Json{{"name", "bulb"},
+                                     {"kind", "point"},
+                                     {"members", {"bulb"}},
+                                     {"color", {1.0, 0.5, 0.25}},
+                                     {"error", 0.125},
+                                     {"brightest", {shortest(half.brightest)}}}));
+    EXPECT_EQ(told["width"], half.width);
+    EXPECT_EQ(told["height"], half.height);
+    std::vector<std::uint8_t> both = half.bytes;
+    both.insert(both.end(), half.bytes.begin(), half.bytes.end());
+    const std::vector<std::uint8_t> packed = gzip(both);
+    const Bytes bytes = read_linked_bytes(lit, JsonView("", told));
+    EXPECT_TRUE(std::ranges::equal(bytes, packed));
+
+    // A later bake of the file drops them, and their bytes.
+    const GltfDocument again = write("again.glb", lit.path, LightmapFormat::png, {});
+    const GltfDocument plain = write("plain.glb", scene.path, LightmapFormat::png, {});
+    const GltfDocument twice = write("twice.glb", plain.path, LightmapFormat::png, {});
+    EXPECT_FALSE(lamps_view_in_extras(again.json));
+    EXPECT_EQ(again.buffers, twice.buffers);
+    EXPECT_FALSE(
+        lamps_view_in_extras(write("none.glb", scene.path, LightmapFormat::none, lamps).json));
+    write_baked_glb(folder / "baked.glb", lit, read_gltf(lit.path), atlas, map);
+    EXPECT_FALSE(lamps_view_in_extras(load_gltf_document(folder / "baked.glb").json));
 }
 
 TEST(GltfWrite, EveryTriangleOfEveryLoadableFileComesBackInItsPlace)
