@@ -36,6 +36,23 @@ std::vector<float> brightness_of(const Lumels& lumels, const std::vector<glm::ve
     return brightness;
 }
 
+/// Adds the light along lobes, a set of points at a time, as every point has a value of each lamp.
+void add_lobes(std::vector<Image>& images, const Seen& seen, const LitScene& lit,
+               const PowerDraw& senders, const RenderOptions& options, Stages& stages)
+{
+    LobeRayOptions lobes{.rays = options.rays, .seed = seed_of(options.bake.solver.method)};
+    for (std::uint32_t set = 0; set < seen.sets; ++set) {
+        lobes.first = seen.first[set];
+        const auto points =
+            std::span(seen.glossy).subspan(lobes.first, seen.first[set + 1] - lobes.first);
+        const auto progress = [&](double fraction) {
+            return stages.progress((double(set) + fraction) / double(seen.sets));
+        };
+        add_reflected(images, seen, lobes.first,
+                      gather_along_lobes(points, lit, senders, lobes, progress));
+    }
+}
+
 Image sum_of(const std::vector<Image>& images)
 {
     Image sum = images.front();
@@ -131,16 +148,10 @@ Report render_layers(Scene scene, const std::string& path, RenderOptions options
     const Seen seen =
         look(view, options.width, options.height, options.sets, prepared.rays, prepared.surfaces,
              prepared.scene.sky, [&](double fraction) { return stages.progress(fraction); });
+    std::vector<Image> images = compose(seen, lit);
     stages.begin("lobe rays");
-    const std::vector<glm::vec3> reflected =
-        options.rays == 0
-            ? std::vector<glm::vec3>(seen.glossy.size() * lit.layers(), glm::vec3(0.0f))
-            : gather_along_lobes(
-                  seen.glossy, lit, senders,
-                  {.rays = options.rays, .seed = seed_of(options.bake.solver.method)},
-                  [&](double fraction) { return stages.progress(fraction); });
+    add_lobes(images, seen, lit, senders, options, stages);
     stages.begin("writing");
-    const std::vector<Image> images = compose(seen, lit, reflected);
     const Image all = sum_of(images);
     const std::optional<float> exposure = write_picture(path, all);
     std::vector<std::string> files = write_layers(path, all, images, lamps->lamps);

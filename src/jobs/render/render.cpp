@@ -204,10 +204,10 @@ Made shoot(Lit& frame, Lit* before, const gpu::Device& device, const RenderOptio
     const Seen seen = look(frame.view, options.width, options.height, options.sets, prepared.rays,
                            prepared.surfaces, prepared.scene.sky,
                            [&](double fraction) { return stages.progress(fraction); });
-    Image image = std::move(compose(seen, lit,
-                                    papers ? look_up_accumulated(solver, sight, seen, prepared)
-                                           : reflect(solver, seen, setting, lit, options, stages))
-                                .front());
+    std::vector<Image> images = compose(seen, lit);
+    add_reflected(images, seen, 0,
+                  papers ? look_up_accumulated(solver, sight, seen, prepared)
+                         : reflect(solver, seen, setting, lit, options, stages));
     stages.end();
     device.check_validation();
     const Results results{.shots = solver.state().shots,
@@ -217,7 +217,8 @@ Made shoot(Lit& frame, Lit* before, const gpu::Device& device, const RenderOptio
                           .near_pairs = setting.near.column.size(),
                           .curve = std::move(run.curve),
                           .lamps = frame.lamps};
-    return {std::move(image), picture_report(options, prepared, device, solver, results, stages)};
+    return {std::move(images.front()),
+            picture_report(options, prepared, device, solver, results, stages)};
 }
 
 Made make(Scene scene, const RenderOptions& options, Stages& stages)

@@ -224,7 +224,8 @@ std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, cons
     for (bool stopped = false; taken < options.rays && !stopped; ++taken) {
         const auto follow = [&](std::size_t first, std::size_t last) {
             for (std::size_t e = first; e < last; ++e) {
-                const std::uint32_t stream = PathSamples::hash(options.seed, std::uint32_t(e));
+                const std::uint32_t stream =
+                    PathSamples::hash(options.seed, options.first + std::uint32_t(e));
                 lobes.estimate(points[e], PathSamples(stream, taken),
                                std::span(radiance).subspan(e * layers, layers));
             }

@@ -16,6 +16,7 @@ struct LobeRayOptions {
     std::uint32_t rays = 16;  ///< n_B, per point
     float shooters = 0.0f;    ///< n_A that a point received from on the device; 0: rays alone
     std::uint32_t seed = 1;
+    std::uint32_t first = 0;  ///< number of the first point, whose random numbers depend on it
 };
 
 /// [P][lit.layers()] cd/m² toward the eye, weighted against the shooters by the balance heuristic

@@ -9,19 +9,20 @@ namespace {
 
 constexpr std::size_t kPointsPerTask = 1024;
 
+void add(Image& image, std::size_t pixel, const glm::vec3& radiance)
+{
+    for (int c = 0; c < 3; ++c)
+        image.values[pixel * 4 + std::size_t(c)] += radiance[c];
+}
+
 }  // namespace
 
-std::vector<Image> compose(const Seen& seen, const LitScene& lit,
-                           std::span<const glm::vec3> reflected)
+std::vector<Image> compose(const Seen& seen, const LitScene& lit)
 {
     const std::size_t layers = lit.layers();
     std::vector<Image> images(layers, Image(seen.width, seen.height, 4));
     const std::size_t pixels = std::size_t(seen.width) * std::size_t(seen.height);
     const float share = 1.0f / float(seen.sets);
-    const auto add = [&](std::size_t layer, std::size_t pixel, const glm::vec3& radiance) {
-        for (int c = 0; c < 3; ++c)
-            images[layer].values[pixel * 4 + std::size_t(c)] += share * radiance[c];
-    };
     parallel_for(pixels, kPointsPerTask, [&](std::size_t first, std::size_t last) {
         std::vector<glm::vec3> light(layers);
         for (std::size_t i = first; i < last; ++i)
@@ -36,15 +37,22 @@ std::vector<Image> compose(const Seen& seen, const LitScene& lit,
                 else
                     light[lit.sky_layer()] += point.luminance;
                 for (std::size_t layer = 0; layer < layers; ++layer) {
-                    add(layer, i, light[layer]);
+                    add(images[layer], i, share * light[layer]);
                     images[layer].values[i * 4 + 3] += share;
                 }
             }
     });
-    for (std::size_t g = 0; g < seen.glossy.size(); ++g)
-        for (std::size_t layer = 0; layer < layers; ++layer)
-            add(layer, seen.index[g] % pixels, reflected[g * layers + layer]);
     return images;
+}
+
+void add_reflected(std::vector<Image>& images, const Seen& seen, std::size_t first,
+                   std::span<const glm::vec3> reflected)
+{
+    const std::size_t pixels = std::size_t(seen.width) * std::size_t(seen.height);
+    const float share = 1.0f / float(seen.sets);
+    for (std::size_t v = 0; v < reflected.size(); ++v)
+        add(images[v % images.size()], seen.index[first + v / images.size()] % pixels,
+            share * reflected[v]);
 }
 
 }  // namespace lumel

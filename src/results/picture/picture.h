@@ -1,6 +1,7 @@
 #pragma once
 // Image of a solved scene, with gloss.
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -10,9 +11,12 @@
 
 namespace lumel {
 
-/// Radiance toward the eye [cd/m²], RGBA (alpha: covered fraction of the pixel), for each layer of
-/// `lit`: emission, ρ_d H / π, and `reflected` [G][layers], the light of the lobes at seen.glossy.
-std::vector<Image> compose(const Seen& seen, const LitScene& lit,
-                           std::span<const glm::vec3> reflected);
+/// Radiance toward the eye without lobes [cd/m²], RGBA (alpha: covered fraction of the pixel), for
+/// each layer of `lit`: emission and ρ_d H / π.
+std::vector<Image> compose(const Seen& seen, const LitScene& lit);
+
+/// Adds the light of the lobes at seen.glossy from `first` on, [points][images].
+void add_reflected(std::vector<Image>& images, const Seen& seen, std::size_t first,
+                   std::span<const glm::vec3> reflected);
 
 }  // namespace lumel
