@@ -80,7 +80,7 @@ const entriesOf = (states) => states instanceof Map ? [...states] : Object.entri
  */
 export async function lampsOf(renderer, gltf) {
     const told = gltf.asset.extras?.lumel?.lamps;
-    if (!told) return without('the scene was baked without --per-lamp.');
+    if (!told?.list?.length) return without('the scene was baked without --per-lamp.');
     if (!canAdd(renderer)) return without('this browser cannot draw into textures of floating-point numbers.');
     const bytes = await mapsOf(gltf, told, told.list[0].brightest.length);
     if (!bytes) return without('a tool has dropped the maps of the lamps from the file.');

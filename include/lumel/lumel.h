@@ -486,8 +486,9 @@ enum class LightmapFormat {
 /// scene's file had when it was read, with the lightmap bound by MOZ_lightmap. Of a scene made in
 /// memory, meshes, materials, textures and lamps, with node i for instance i, but not the sky.
 /// Lamps are baked and therefore hidden, except in a bake of indirect light. A scene without camera
-/// gets one. Viewers may refuse transforms with shear. Throws Error{input} if the bake has no
-/// solution or its map has another size; Error{output}.
+/// gets one. Baked::lamps are added for viewers that dim lamps, such as lumel-three. Viewers may
+/// refuse transforms with shear. Throws Error{input} if the bake has no solution or a map has
+/// another size; Error{output}.
 LUMEL_API void write_scene(const std::string& path, const Baked& baked,
                            LightmapFormat format = LightmapFormat::ktx2);
 /// Writes the scene to a .glb file that any viewer shows lit, as `lumel bake` writes

@@ -44,15 +44,15 @@ Probe probe_of(const ProbeLight& light)
     return probe;
 }
 
-Image image_of(const Map& map, const Atlas& atlas)
+/// subject: the map, for messages.
+Image image_of(const Map& map, const Atlas& atlas, const std::string& subject)
 {
     constexpr std::size_t kChannels = 4;
     Image image(atlas.width, atlas.height, int(kChannels));
     if (map.width != image.width || map.height != image.height ||
         map.rgba.size() != image.values.size())
-        refuse_result("Baked::map", "must have the size of the bake, " +
-                                        std::to_string(image.width) + " x " +
-                                        std::to_string(image.height) + " texels");
+        refuse_result(subject, "must have the size of the bake, " + std::to_string(image.width) +
+                                   " x " + std::to_string(image.height) + " texels");
     image.values = map.rgba;
     return image;
 }
@@ -98,6 +98,32 @@ std::optional<AddedCamera> camera_of(const SolveScene& prepared)
     return camera_for(prepared, choose_view(prepared.scene, prepared.rays));
 }
 
+/// Mean colour of covered texels, its largest channel 1.
+glm::dvec3 mean_colour(const Image& map)
+{
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < map.values.size(); i += 4)
+        if (map.values[i + 3] > 0.0f)
+            sum += glm::dvec3(map.values[i], map.values[i + 1], map.values[i + 2]);
+    const double most = std::max({sum.r, sum.g, sum.b});
+    return most > 0.0 ? sum / most : glm::dvec3(1.0);
+}
+
+/// Lamps for a scene.glb. maps: of these lamps.
+std::vector<SceneLamp> scene_lamps(const std::vector<LampMap>& lamps,
+                                   const std::vector<Image>& maps)
+{
+    std::vector<SceneLamp> found;
+    for (std::size_t k = 0; k < lamps.size(); ++k)
+        found.push_back({.name = lamps[k].name,
+                         .kind = lamps[k].kind,
+                         .members = lamps[k].members,
+                         .color = mean_colour(maps[k]),
+                         .error = lamps[k].error,
+                         .map = &maps[k]});
+    return found;
+}
+
 }  // namespace
 
 std::vector<Probe> probes(const Baked& baked, const std::vector<Vec3>& places,
@@ -132,13 +158,18 @@ void write_scene(const std::string& path, const Baked& baked, LightmapFormat for
     translated([&] {
         const BakedSolution& solution = solution_of(baked);
         const SolveScene& prepared = solution.setting.prepared;
-        const Image map = image_of(baked.map, prepared.atlas);
+        const Image map = image_of(baked.map, prepared.atlas, "Baked::map");
         // A white surface of irradiance H sends H / π.
         const float exposure = exposure_of(radiance_map(solution)) * std::numbers::inv_pi_v<float>;
+        std::vector<Image> maps;
+        for (const LampMap& lamp : baked.lamps)
+            maps.push_back(image_of(lamp.map, prepared.atlas, "Baked::lamps"));
+        const std::vector<SceneLamp> lamps = scene_lamps(baked.lamps, maps);
         const SceneLighting lights{.keep = solution.parts == lumel::Parts::indirect,
                                    .exposure = exposure,
                                    .format = format_of(format),
-                                   .camera = camera_of(prepared)};
+                                   .camera = camera_of(prepared),
+                                   .lamps = lamps};
         with_document(solution, [&](const GltfDocument& document, const lumel::Scene& scene) {
             write_scene_glb(path, document, scene, prepared.atlas, map, lights);
         });

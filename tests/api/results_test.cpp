@@ -77,6 +77,13 @@ TEST(LampsOfABake, AddUpToItsMap)
         ASSERT_NEAR(baked.lamps[0].map.rgba[v] + baked.lamps[1].map.rgba[v], whole,
                     1e-5f * whole + 1e-6f);
     }
+    const lumel::test::TemporaryFolder folder;
+    write_scene(folder / "scene.glb", baked);
+    const Json lamps =
+        load_gltf_document(folder / "scene.glb").json["asset"]["extras"]["lumel"]["lamps"]["list"];
+    ASSERT_EQ(lamps.size(), 2u);
+    EXPECT_EQ(lamps[0]["name"], "window");
+    EXPECT_EQ(lamps[1]["error"], baked.lamps[1].error);
     apart.groups = {{"both", "*"}};
     const Baked joined = bake(scene, apart);
     ASSERT_EQ(joined.lamps.size(), 1u);
