@@ -15,8 +15,8 @@ constexpr float kWhiteCode = 255.0f;
 /// In [0, 1): values of adjacent pixels, and of the layers at a pixel, are spread evenly [Rob18].
 float threshold(int x, int y, std::uint32_t layer)
 {
-    // 2³² / g, / g², / g³; g⁴ = g + 1
-    constexpr std::uint32_t kX = 3518319155u, kY = 2882110345u, kLayer = 2360945575u;
+    // 2³² / ψ, / ψ², / φ; ψ³ = ψ + 1
+    constexpr std::uint32_t kX = 3242174889u, kY = 2447445414u, kLayer = 2654435769u;
     return unit_float(std::uint32_t(x) * kX + std::uint32_t(y) * kY + layer * kLayer);
 }
 
