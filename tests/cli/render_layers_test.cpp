@@ -127,6 +127,17 @@ TEST(RenderLayers, AddUpToTheImageByAnotherSolver)
     EXPECT_LT(std::abs(all.bias), kAskedError / 2.0);
 }
 
+TEST(RenderLayers, AddUpToTheLightThatPathsFind)
+{
+    const Workplace place;
+    const std::string scene =
+        box(place, {"left", "right"}, {.dark = true, .file = "cornell-box.gltf"});
+    ASSERT_EQ(render(scene, place.path("all.exr"), {"--layers", "--error", "2"}).code, 0);
+    ASSERT_EQ(render(scene, place.path("truth.exr"), {"--paths", "256"}).code, 0);
+    const Image sum = sum_of(place, {"all-lamp-left.exr", "all-lamp-right.exr"});
+    EXPECT_LT(std::abs(difference(sum, read_exr(place.path("truth.exr"))).bias), kAskedError);
+}
+
 TEST(RenderLayers, AreTheImagesOfScenesWithOneLamp)
 {
     const Workplace place, alone;
