@@ -40,8 +40,8 @@ void add_lamp_options(Command& command, GivenLinks& links)
     command.add(kLightmapGroup,
                 {{"--per-lamp", "",
                   "Also write a map for each lamp, emissive object, sun and sky, which add up to "
-                  "the lightmap: lamp-NAME.exr and lamps.json, for the sliders of lumel report "
-                  "(only links)",
+                  "the lightmap: lamp-NAME.exr and lamps.json, for the sliders of lumel report, "
+                  "and maps in scene.glb for three.js (only links)",
                   &links.per_lamp}});
     add_group_option(command, kLightmapGroup, "--per-lamp", links.groups);
 }
