@@ -71,13 +71,14 @@ void print_summary(const Outcomes& outcomes)
 {
     Report summary;
     summary.table("summary", tally_of(outcomes),
-                  {"paper", "where", "what", "paper's", "ours", "met if", "verdict"});
+                  {"paper", "where", "what", "paper's", "ours", "met if", "verdict"}, none());
     for (const PaperValue& value : paper_values()) {
         const Judgement judgement = judge(value, outcomes);
         summary.row({value.paper, value.place, value.quantity, value.value, judgement.ours,
-                     bar_of(value), words_of(judgement.verdict)});
+                     bar_of(value), words_of(judgement.verdict)},
+                    judgement.our_default);
     }
-    summary.table("times", "Time of each figure", {"figure", "s", "cpu s"});
+    summary.table("times", "Time of each figure", {"figure", "s", "cpu s"}, "its cells");
     for (const Run& run : all_runs())
         if (const auto outcome = outcomes.find(run.key); outcome != outcomes.end())
             summary.row({run.key, fixed(outcome->second.wall, 0), fixed(outcome->second.cpu, 0)});

@@ -234,6 +234,8 @@ void add_dynamic(CLI::App& app, DynamicSettings& settings, Report& report)
     add_number(figure, "--steps", settings.steps, "after the first, of which the median counts");
     add_number(figure, "--reference-spp", settings.shared.reference_spp,
                "paths per lumel for the truth; 0: none", 0);
+    figure->add_option("-o,--out", settings.folder, "folder for pictures");
+    add_number(figure, "--width", settings.width, "width of a picture [pixels]");
     figure->add_flag("!--no-gather", settings.gathers, "leaves gathering out, which takes longest");
     figure
         ->add_option("--pieces", settings.pieces,

@@ -7,8 +7,9 @@ namespace lumel::bench {
 Image contact_sheet(const std::vector<std::vector<Image>>& rows)
 {
     const Image& first = rows.front().front();
-    Image sheet(first.width * int(rows.front().size()), first.height * int(rows.size()),
-                first.channels);
+    const auto& longest = *std::max_element(
+        rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    Image sheet(first.width * int(longest.size()), first.height * int(rows.size()), first.channels);
     for (std::size_t row = 0; row < rows.size(); ++row)
         for (std::size_t column = 0; column < rows[row].size(); ++column) {
             const Image& picture = rows[row][column];

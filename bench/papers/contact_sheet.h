@@ -7,7 +7,7 @@
 
 namespace lumel::bench {
 
-/// Pictures of one size in rows, of which the first is the longest.
+/// Pictures of one size in rows, the first of which has one.
 Image contact_sheet(const std::vector<std::vector<Image>>& rows);
 
 }  // namespace lumel::bench

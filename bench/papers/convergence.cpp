@@ -17,6 +17,7 @@
 #include "bench/papers/figures.h"
 #include "bench/papers/halves.h"
 #include "bench/papers/iteration_cost.h"
+#include "bench/papers/our_default.h"
 #include "bench/reference.h"
 #include "bench/stopwatch.h"
 #include "jobs/render/render.h"
@@ -149,6 +150,15 @@ std::vector<glm::vec3> radiosity_of(const Lumels& lumels, std::vector<glm::vec3>
     return irradiance;
 }
 
+Cell by_our_default(const gpu::Device& device, const SolveScene& world,
+                    const std::vector<Image>& truth)
+{
+    if (truth.empty())
+        return none();
+    const Solved ours = solve_by_default(device, world);
+    return words_of(error_of(map_of(world, ours), truth).relative_rmse, ours.cpu);
+}
+
 void add_row(Report& report, const Scheme& scheme, const SolverState& state, double cpu,
              const std::optional<MapError>& error)
 {
@@ -216,7 +226,8 @@ void follow_convergence(const ConvergenceSettings& settings, Report& report)
     report.table("convergence",
                  "Error after iterations ([BJ04] figures 5 and 6); of the map, relative, against "
                  "paths, free of their noise",
-                 {"scheme", "iterations", "K", "shooters", "RMSE %", "bias %", "cpu s"});
+                 {"scheme", "iterations", "K", "shooters", "RMSE %", "bias %", "cpu s"},
+                 by_our_default(device, world, truth));
     std::vector<std::vector<Image>> maps, pictures;
     std::string names;
     for (const Scheme& scheme : schemes_of(settings.shared)) {

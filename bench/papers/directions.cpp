@@ -13,6 +13,7 @@
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/papers/landscape.h"
+#include "bench/papers/our_default.h"
 #include "bench/stopwatch.h"
 #include "results/preview/preview.h"
 #include "scene/sky/clear_sky.h"
@@ -147,7 +148,7 @@ Image picture_of(const gpu::Device& device, const SolveScene& world, const Image
 }
 
 void add_row(Report& report, const Example& example, const SolveScene& world,
-             const Compared& compared)
+             const Compared& compared, const Cell& ours)
 {
     const auto directions = double(compared.paper.directions);
     const auto each = [&](double seconds) { return fixed(1e3 * seconds / directions, 2); };
@@ -169,7 +170,7 @@ void add_row(Report& report, const Example& example, const SolveScene& world,
     }
     cells.push_back(each(compared.list.watch.wall));
     cells.push_back(each(compared.list.watch.cpu));
-    report.row(cells);
+    report.row(cells, ours);
 }
 
 bool is_wanted(const DirectionsSettings& settings, const Example& example)
@@ -185,7 +186,9 @@ std::vector<Image> show(const DirectionsSettings& settings, const gpu::Device& d
     const SolveScene world(scene_of(example, settings.sky),
                            AtlasOptions{.size = settings.shared.size * example.finer});
     const Compared compared = compare(device, world, options_for(settings, example));
-    add_row(report, example, world, compared);
+    const Solved ours = solve_by_default(device, world);
+    const MapError error = compare_maps(map_of(world, ours), compared.list.map);
+    add_row(report, example, world, compared, words_of(error.relative_rmse, ours.cpu));
     if (settings.folder.empty())
         return {};
     return {picture_of(device, world, compared.paper.map, settings.width)};
@@ -205,7 +208,8 @@ void show_directions(const DirectionsSettings& settings, Report& report)
                  "direction",
                  {"scene", "triangles", "lumels", "directions", "wall ms per direction", "cpu ms",
                   "draw", "gather", "RMSE against list, %", "bias, %", "by planes, RMSE, %",
-                  "by planes, bias, %", "list, wall ms", "list, cpu ms"});
+                  "by planes, bias, %", "list, wall ms", "list, cpu ms"},
+                 none());
     std::vector<std::vector<Image>> rows(1);
     for (const Example& example : examples(settings)) {
         if (!is_wanted(settings, example))

@@ -77,7 +77,7 @@ void follow_drift(const DriftSettings& settings, Report& report)
                  fmt::format("What {} moves leave ([Hoef13] section 4.5.2); at rest, relative to "
                              "the solution before them",
                              settings.moves),
-                 {"redistribution", "after", "RMSE %", "residual"});
+                 {"redistribution", "after", "RMSE %", "residual"}, kSolvedAnew);
     follow(device, scene, Redistribution::incremental, settings, report);
     follow(device, scene, Redistribution::cross, settings, report);
     device.check_validation();

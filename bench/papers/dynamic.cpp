@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 
 #include "bench/cut.h"
+#include "bench/papers/dynamic_pictures.h"
+#include "bench/papers/dynamic_tables.h"
 #include "bench/papers/figures.h"
-#include "bench/papers/moving.h"
 #include "bench/stopwatch.h"
 #include "solve/solver/solver.h"
 #include "solve/transport/patches.h"
@@ -18,30 +19,13 @@
 namespace lumel::bench {
 namespace {
 
-enum Technique { kNothing, kGather, kProgressive, kIncremental, kCross, kTechniques };
-constexpr std::array<const char*, kTechniques> kNames{"nothing done", "gather", "progressive",
-                                                      "incremental", "cross"};
 constexpr std::uint32_t kReferenceSeed = 99;
-constexpr double kMinShown = 0.1;  ///< of a part's time [ms]
-
-/// What one technique did after the last move.
-struct MoveOutcome {
-    Update update;
-    std::vector<glm::vec3> alone, irradiance;  ///< after redistribution alone; at rest
-    std::optional<MapError> alone_from_truth, from_truth;
-    /// Relative RMSE from `progressive` at rest, with the same lumels.
-    double alone_from_scratch = 0.0, from_scratch = 0.0;
-    double change_left = 0.0;  ///< from_scratch relative to that of nothing done
-};
-
-struct Results {
-    std::string title;
-    std::size_t still = 0, moving = 0;  ///< lumels
-    std::size_t patches = 0, moving_patches = 0;
-    std::size_t vertices = 0, triangles = 0;
-    std::array<std::optional<MoveOutcome>, kTechniques> by;
-};
-
+constexpr std::pair<MoveTechnique, Redistribution> kRedistributions[] = {
+    {kIncremental, Redistribution::incremental},
+    {kCross, Redistribution::cross},
+    {kPaperIncremental, Redistribution::paper_incremental},
+    {kPaperCross, Redistribution::paper_cross},
+    {kPaperCrossIncremental, Redistribution::paper_cross_incremental}};
 /// One scene, the places of its box and how it is laid out.
 struct Stage {
     Scene scene;
@@ -71,7 +55,15 @@ Stage set(const ThesisScene& which, const DynamicSettings& settings, int pieces)
     return stage;
 }
 
-void count(const Stage& stage, const Lumels& lumels, Results& results)
+/// With the box in its last place.
+Scene posed(const Stage& stage)
+{
+    Scene scene = stage.scene;
+    scene.instances[stage.box].transform = stage.places.back();
+    return scene;
+}
+
+void count(const Stage& stage, const Lumels& lumels, MoveResults& results)
 {
     for (const Lumel& lumel : lumels.lumels)
         ++(lumel.instance == stage.box ? results.moving : results.still);
@@ -151,8 +143,7 @@ MoveOutcome nothing_done(const gpu::Device& device, const Stage& stage)
 /// The lumels of `laid_out`, with the box in its last place.
 MoveOutcome gathered(const gpu::Device& device, const LiveScene& laid_out, const Stage& stage)
 {
-    Scene scene = stage.scene;
-    scene.instances[stage.box].transform = stage.places.back();
+    const Scene scene = posed(stage);
     const SolverOptions options{.method = stage.gather};
     const World world(device, scene, laid_out.lumels(), &laid_out.atlas());
     const auto solver = make_solver({&device, &world, laid_out.lumels(), {}}, options);
@@ -169,21 +160,20 @@ MoveOutcome gathered(const gpu::Device& device, const LiveScene& laid_out, const
     return outcome;
 }
 
-void compare(const gpu::Device& device, const Stage& stage, const DynamicSettings& settings,
-             Results& results)
+/// Errors of all techniques and of our default, and the light that they are taken against.
+void compare(const Stage& stage, const LiveScene& laid_out, const DynamicSettings& settings,
+             MoveResults& results)
 {
-    const LiveScene laid_out(device, stage.scene, stage.options);
-    Scene scene = stage.scene;
-    scene.instances[stage.box].transform = stage.places.back();
     const Lumels& lumels = laid_out.lumels();
     std::optional<Image> truth;
-    if (settings.shared.reference_spp > 0)
-        truth = in_a_row(lumels,
-                         reference_irradiance(scene, RayScene(scene), lumels,
-                                              {.samples_per_lumel = settings.shared.reference_spp,
-                                               .seed = kReferenceSeed}));
-    if (settings.gathers)
-        results.by[kGather] = gathered(device, laid_out, stage);
+    if (settings.shared.reference_spp > 0) {
+        const Scene scene = posed(stage);
+        results.truth = reference_irradiance(
+            scene, RayScene(scene), lumels,
+            {.samples_per_lumel = settings.shared.reference_spp, .seed = kReferenceSeed});
+        truth = in_a_row(lumels, results.truth);
+        results.ours_from_truth = compare_maps(in_a_row(lumels, results.ours.irradiance), *truth);
+    }
     const Image scratch = in_a_row(lumels, results.by[kProgressive]->irradiance);
     for (auto& outcome : results.by) {
         if (!outcome)
@@ -200,169 +190,28 @@ void compare(const gpu::Device& device, const Stage& stage, const DynamicSetting
     }
 }
 
-Results measure(const gpu::Device& device, const ThesisScene& which,
-                const DynamicSettings& settings, int pieces)
+MoveResults measure(const gpu::Device& device, const ThesisScene& which,
+                    const DynamicSettings& settings, int pieces)
 {
     const Stage stage = set(which, settings, pieces);
-    Results results{.title = which.title};
-    results.by[kIncremental] = corrected(device, stage, Redistribution::incremental);
-    results.by[kCross] = corrected(device, stage, Redistribution::cross);
+    const LiveScene laid_out(device, stage.scene, stage.options);
+    MoveResults results{.title = which.title};
+    for (const auto& [technique, redistribution] : kRedistributions)
+        results.by[technique] = corrected(device, stage, redistribution);
     results.by[kProgressive] = from_scratch(device, stage);
     results.by[kNothing] = nothing_done(device, stage);
-    count(stage, LiveScene(device, stage.scene, stage.options).lumels(), results);
+    results.ours =
+        solve_by_default(device, SolveScene(posed(stage), laid_out.atlas(), laid_out.lumels()));
+    count(stage, laid_out.lumels(), results);
+    if (pieces > 1)
+        return results;
+    if (settings.gathers)
+        results.by[kGather] = gathered(device, laid_out, stage);
+    compare(stage, laid_out, settings, results);
+    if (!settings.folder.empty())
+        results.picture = draw_techniques(device, posed(stage), laid_out.atlas(), laid_out.lumels(),
+                                          which, settings, results);
     return results;
-}
-
-double sum_of(const gpu::StageTimes& stages)
-{
-    double sum = 0.0;
-    for (const auto& [stage, ms] : stages)
-        sum += ms;
-    return sum;
-}
-
-/// One row for each technique from `first` on, one column for each scene.
-template <class Number>
-void add_table(Report& report, const std::string& key, const std::string& title,
-               const std::vector<Results>& all, const Number& number, int first = kGather)
-{
-    std::vector<std::string> columns{"technique"};
-    for (const Results& results : all)
-        columns.push_back(results.title);
-    report.table(key, title, columns);
-    for (int technique = first; technique < kTechniques; ++technique) {
-        if (!all.front().by[technique])
-            continue;
-        std::vector<Cell> cells{kNames[technique]};
-        for (const Results& results : all)
-            cells.push_back(number(*results.by[technique]));
-        report.row(cells);
-    }
-}
-
-void add_scenes(Report& report, const std::string& suffix, const std::vector<Results>& all)
-{
-    report.table("scenes" + suffix, "Scenes",
-                 {"scene", "lumels that stay", "on the box", "patches", "of them on the box, |M|",
-                  "vertices", "triangles"});
-    for (const Results& results : all)
-        report.row({results.title, results.still, results.moving, results.patches,
-                    results.moving_patches, results.vertices, results.triangles});
-}
-
-void add_errors(Report& report, const std::vector<Results>& all)
-{
-    const auto normalized = [](const std::optional<MapError>& error) {
-        return error ? fixed(error->normalized_rmse, 5) : none();
-    };
-    add_table(report, "normalized", "Normalized RMSE from the truth at rest ([Hoef13] table 5.1)",
-              all, [&](const MoveOutcome& o) { return normalized(o.from_truth); });
-    add_table(report, "normalized-alone",
-              "Normalized RMSE from the truth after redistribution alone", all,
-              [&](const MoveOutcome& o) { return normalized(o.alone_from_truth); });
-    add_table(report, "relative", "Relative RMSE from the truth at rest, %", all,
-              [&](const MoveOutcome& o) {
-                  return o.from_truth ? fixed(100.0 * o.from_truth->relative_rmse, 3) : none();
-              });
-    add_table(
-        report, "from-scratch",
-        "Relative RMSE from a progressive solution from scratch, at rest, %", all,
-        [](const MoveOutcome& o) { return fixed(100.0 * o.from_scratch, 3); }, kNothing);
-    add_table(
-        report, "from-scratch-alone", "The same after redistribution alone, %", all,
-        [](const MoveOutcome& o) { return fixed(100.0 * o.alone_from_scratch, 3); }, kNothing);
-    add_table(
-        report, "change-left", "What is left of the change by the move, at rest, %", all,
-        [](const MoveOutcome& o) { return fixed(100.0 * o.change_left, 1); }, kNothing);
-}
-
-void add_times(Report& report, const std::string& suffix, const std::vector<Results>& all)
-{
-    add_table(report, "rest-ms" + suffix, "Time of an update until at rest, wall, ms", all,
-              [](const MoveOutcome& o) { return fixed(o.update.whole_ms, 0); });
-    add_table(report, "alone-ms" + suffix, "Time of redistribution alone, wall, ms", all,
-              [](const MoveOutcome& o) { return fixed(o.update.alone_ms, 0); });
-    add_table(report, "rest-cpu-ms" + suffix, "The same until at rest, processor time, ms", all,
-              [](const MoveOutcome& o) { return fixed(o.update.whole_cpu_ms, 0); });
-    add_table(report, "alone-cpu-ms" + suffix,
-              "The same of redistribution alone, processor time, ms", all,
-              [](const MoveOutcome& o) { return fixed(o.update.alone_cpu_ms, 0); });
-    add_table(report, "rest-device-ms" + suffix, "Device time until at rest, ms", all,
-              [](const MoveOutcome& o) { return fixed(sum_of(o.update.stages), 0); });
-    add_table(report, "alone-device-ms" + suffix, "Device time of redistribution alone, ms", all,
-              [](const MoveOutcome& o) { return fixed(sum_of(o.update.alone_stages), 0); });
-    add_table(report, "rest-hemicubes" + suffix, "Hemicubes until at rest", all,
-              [](const MoveOutcome& o) -> Cell { return o.update.whole_hemicubes; });
-    add_table(report, "alone-hemicubes" + suffix, "Hemicubes of redistribution alone", all,
-              [](const MoveOutcome& o) -> Cell { return o.update.alone_hemicubes; });
-}
-
-std::string words_of(double Update::*ms)
-{
-    const bool by_processor = ms == &Update::whole_cpu_ms || ms == &Update::alone_cpu_ms;
-    return by_processor ? "processor time" : "wall time";
-}
-
-/// How many times as fast one technique is as another.
-struct Ratio {
-    const char* name;
-    Technique slow, fast;
-};
-constexpr Ratio kRatios[] = {{"gather / cross", kGather, kCross},
-                             {"progressive / cross", kProgressive, kCross},
-                             {"incremental / cross", kIncremental, kCross},
-                             {"progressive / incremental", kProgressive, kIncremental}};
-
-/// The techniques' times over one another.
-void add_ratios(Report& report, const std::string& key, const std::string& title,
-                const std::vector<Results>& all, double Update::*ms)
-{
-    std::vector<std::string> columns{"ratio"};
-    for (const Results& results : all)
-        columns.push_back(results.title);
-    report.table(key, title + ", " + words_of(ms), columns);
-    for (const Ratio& ratio : kRatios) {
-        std::vector<Cell> cells{ratio.name};
-        for (const Results& results : all) {
-            const auto& slow = results.by[ratio.slow];
-            cells.push_back(slow ? fixed(slow->update.*ms / (results.by[ratio.fast]->update.*ms), 2)
-                                 : none());
-        }
-        report.row(cells);
-    }
-}
-
-/// What more vertices cost [Hoef13] table 5.3.
-void add_growth(Report& report, const std::string& suffix, const std::vector<Results>& few,
-                const std::vector<Results>& many, double Update::*ms)
-{
-    std::vector<std::string> columns{"technique"};
-    for (const Results& results : many)
-        columns.push_back(results.title);
-    report.table("growth" + suffix,
-                 "Time until at rest with more vertices / with few, " + words_of(ms), columns);
-    for (int technique = kProgressive; technique < kTechniques; ++technique) {
-        std::vector<Cell> cells{kNames[technique]};
-        for (std::size_t i = 0; i < many.size(); ++i)
-            cells.push_back(
-                fixed(many[i].by[technique]->update.*ms / (few[i].by[technique]->update.*ms), 2));
-        report.row(cells);
-    }
-}
-
-/// What one scene's techniques spend on each part.
-void add_parts(Report& report, const std::string& key, const Results& results, const char* title,
-               const gpu::StageTimes Update::*stages)
-{
-    report.table(key, fmt::format("{}: device time by part, {}", results.title, title),
-                 {"technique", "part", "ms"});
-    for (int technique = kGather; technique < kTechniques; ++technique) {
-        if (!results.by[technique])
-            continue;
-        for (const auto& [stage, ms] : results.by[technique]->update.*stages)
-            if (ms >= kMinShown)
-                report.row({kNames[technique], stage, fixed(ms, 1)});
-    }
 }
 
 /// Of the keys of tables: "" for whole edges, then as table 5.3 has its halves.
@@ -397,38 +246,30 @@ void follow_moves(const DynamicSettings& settings, Report& report)
     std::copy_if(settings.pieces.begin(), settings.pieces.end(), std::back_inserter(all_pieces),
                  [](int pieces) { return pieces > 1; });
     const bool by_processor = counts_processor_time(device);
-    const auto rest = by_processor ? &Update::whole_cpu_ms : &Update::whole_ms;
-    std::vector<Results> whole;  // with edges in one piece
+    std::vector<MoveResults> whole;  // with edges in one piece
     for (const int pieces : all_pieces) {
         const std::string suffix = suffix_of(all_pieces, pieces);
-        std::vector<Results> all;
-        for (const ThesisScene& scene : scenes_of(settings)) {
+        std::vector<MoveResults> all;
+        for (const ThesisScene& scene : scenes_of(settings))
             all.push_back(measure(device, scene, settings, pieces));
-            if (pieces == 1)
-                compare(device, set(scene, settings, pieces), settings, all.back());
-        }
         if (pieces > 1)
             report.say(fmt::format("Edges cut into {} pieces", pieces));
         add_scenes(report, suffix, all);
         if (pieces == 1)
             add_errors(report, all);
-        add_times(report, suffix, all);
-        add_ratios(report, "rest-ratios" + suffix, "Times until at rest, over one another", all,
-                   rest);
-        add_ratios(report, "alone-ratios" + suffix,
-                   "The same of redistribution alone; gather and progressive until at rest", all,
-                   by_processor ? &Update::alone_cpu_ms : &Update::alone_ms);
+        add_times(report, suffix, all, by_processor);
+        if (pieces == 1)
+            add_overview(report, all, by_processor);
         if (pieces > 1)
-            add_growth(report, suffix, whole, all, rest);
-        for (const Results& results : all) {
-            const std::string key = "-" + results.title + suffix;
-            add_parts(report, "alone-parts" + key, results, "redistribution alone",
-                      &Update::alone_stages);
-            add_parts(report, "rest-parts" + key, results, "until at rest", &Update::stages);
-        }
+            add_growth(report, suffix, whole, all, by_processor);
+        for (const MoveResults& results : all)
+            if (results.picture)
+                report.picture(results.picture->path, results.picture->caption);
         if (pieces == 1)
             whole = std::move(all);
     }
+    if (!settings.folder.empty())
+        draw_artefacts(device, settings, report);
     device.check_validation();
 }
 

@@ -129,10 +129,12 @@ struct DynamicSettings {
     int steps = 5;                             ///< after the first, whose median counts
     bool gathers = true;
     std::vector<int> pieces{14, 41};  ///< that edges are cut into, for more vertices; 1 is the rest
+    std::string folder;               ///< for the pictures; empty: none are made
+    int width = 256;                  ///< of a picture [pixels]
 };
 
-/// [Hoef13] tables 5.1 to 5.3 and section 5.3.1: error, time and hemicubes of correcting a solution
-/// when something moves.
+/// [Hoef13] tables 5.1 to 5.3, section 5.3.1 and figures 4.5.3, 4.5.4 and 5.2.1 to 5.2.5: error,
+/// time, hemicubes and pictures of correcting a solution when something moves.
 void follow_moves(const DynamicSettings& settings, Report& report);
 
 struct DriftSettings {

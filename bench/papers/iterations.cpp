@@ -8,6 +8,7 @@
 #include "bench/cut.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
+#include "bench/papers/our_default.h"
 #include "solve/solver/solver.h"
 
 namespace lumel::bench {
@@ -56,7 +57,7 @@ Scene drawn_with(const Scene& scene, int vertices)
 }
 
 void add_row(Report& report, int size, std::size_t lumels, const Scene& scene,
-             const IterationCost& cost)
+             const IterationCost& cost, const Solved& ours)
 {
     const auto ms = [&](std::initializer_list<const char*> stages) {
         return fixed(sum_of(cost.stages, stages), 2);
@@ -65,7 +66,8 @@ void add_row(Report& report, int size, std::size_t lumels, const Scene& scene,
                 find_occluders(scene).inner_indices().size() / 3, fixed(cost.cpu_ms, 2),
                 fixed(cost.wall_ms, 2), ms({"select"}), ms({"power"}), ms({"look"}),
                 ms({"receive"}), ms({"advance"}), ms({"other", "figures", "polish"}),
-                cost.recorded.dispatches, cost.recorded.passes, cost.recorded.draws});
+                cost.recorded.dispatches, cost.recorded.passes, cost.recorded.draws},
+               fmt::format("whole map, {:.2f} s", ours.cpu));
 }
 
 /// The costs of one map, for each number of vertices.
@@ -84,7 +86,7 @@ void add_summary(Report& report, const IterationSettings& settings, const std::v
 {
     const auto ms = by_processor ? &IterationCost::cpu_ms : &IterationCost::wall_ms;
     report.table("summary", by_processor ? "In short, processor time" : "In short, wall time",
-                 {"what", "maps", "value"});
+                 {"what", "maps", "value"}, "no iterations");
     report.row({"slowest / fastest number of vertices", fmt::format("{}²", settings.sizes.back()),
                 fixed(slowest_to_fastest(maps.back(), ms), 2)});
     // "a few hundred vertices"
@@ -112,18 +114,20 @@ void time_iterations(const IterationSettings& settings, Report& report)
     report.table("iterations", "Time of an iteration ([BJ04] figures 7 and 8); stages: device, ms",
                  {"map", "lumels", "vertices", "triangles", "cpu ms", "wall ms", "select",
                   "pyramid", "depth map", "receive", "average", "else", "dispatches", "passes",
-                  "draws"});
+                  "draws"},
+                 none());
     std::vector<Costs> maps;
     for (const int size : settings.sizes) {
         maps.emplace_back();
         const SolveScene world = prepare(settings.shared, size);
+        const Solved ours = solve_by_default(device, world);
         for (const int vertices : settings.vertices) {
             const Scene scene = drawn_with(world.scene, vertices);
             const World resident(device, scene, world.lumels);
             const NearField none = no_near_field(world.lumels);
             const auto solver = make_solver({&device, &resident, world.lumels, none}, options);
             maps.back().push_back(cost_of_iteration(device, *solver, settings.iterations));
-            add_row(report, size, world.lumels.lumels.size(), scene, maps.back().back());
+            add_row(report, size, world.lumels.lumels.size(), scene, maps.back().back(), ours);
         }
     }
     add_summary(report, settings, maps, counts_processor_time(device));

@@ -14,6 +14,7 @@
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/papers/layer_pictures.h"
+#include "bench/papers/our_default.h"
 #include "bench/stopwatch.h"
 #include "methods/directions/slabs.h"
 #include "raster/parallel/illumination_maps.h"
@@ -198,7 +199,8 @@ void add_chances(Report& report, const LayersSettings& settings, const gpu::Devi
                              settings.views,
                              options_of<DirectionsOptions>(settings.shared).map_side),
                  {"planes", "slabs", "K measured", "9 lookups, found %", "1 − (1 − 1/K)⁹, %",
-                  "25 lookups, found %", "1 − (1 − 1/K)²⁵, %"});
+                  "25 lookups, found %", "1 − (1 − 1/K)²⁵, %"},
+                 kTracesRays);
     std::array<double, std::size(kReaches)> farthest{};  // from the formula, without slabs
     for (const int slabs : settings.slabs)
         for (const int planes : settings.overdraws) {
@@ -218,7 +220,7 @@ void add_chances(Report& report, const LayersSettings& settings, const gpu::Devi
             report.row(cells);
         }
     report.table("chance-errors", "Farthest from the formula, one slab",
-                 {"lookups", "percentage points"});
+                 {"lookups", "percentage points"}, kTracesRays);
     report.row({9, fixed(farthest[0], 3)});
     report.row({25, fixed(farthest[1], 3)});
 }
@@ -256,8 +258,10 @@ void add_red(Report& report, const LayersSettings& settings, const gpu::Device& 
              const SolveScene& world)
 {
     const World resident(device, world.scene, world.lumels, &world.atlas);
+    const Solved ours = solve_by_default(device, world);
     report.table("red", "Red light that leaks onto the plane on top ([TN11] figure 8)",
-                 {"layers", "red error above, %", "below, %", "wall ms per direction", "cpu ms"});
+                 {"layers", "red error above, %", "below, %", "wall ms per direction", "cpu ms"},
+                 words_of(red_error(world, ours.irradiance, kLumelBack), ours.cpu));
     std::vector<Image> planes;
     for (const Variant& variant : kVariants) {
         auto options = options_of<DirectionsOptions>(settings.shared);

@@ -79,7 +79,8 @@ void add_distribution(Report& report, const MatrixCase& matrix_case)
         const auto above = std::lower_bound(bounds.begin(), bounds.end(), value);
         ++counts[std::size_t(above - bounds.begin())];
     }
-    report.table("distribution", "Form factors ([SF17] figure 1)", {"form factor", "share %"});
+    report.table("distribution", "Form factors ([SF17] figure 1)", {"form factor", "share %"},
+                 kNoMatrix);
     const double all = double(matrix_case.form_factors.values.size());
     double below = 0.0;  // kLow
     for (std::size_t k = 0; k < counts.size(); ++k) {
@@ -96,9 +97,9 @@ void add_distribution(Report& report, const MatrixCase& matrix_case)
 
 void add_shares(Report& report, const MatrixCase& matrix_case, const std::vector<double>& shares)
 {
-    report.table(
-        "shares", "Error against the share kept exactly ([SF17] figure 2), BC1",
-        {"share %", "Σ e", "Σ e²", "largest", "light, RMSE %", "worst %", "naive / bytes"});
+    report.table("shares", "Error against the share kept exactly ([SF17] figure 2), BC1",
+                 {"share %", "Σ e", "Σ e²", "largest", "light, RMSE %", "worst %", "naive / bytes"},
+                 kNoMatrix);
     for (const double share : shares) {
         CodingOptions options;
         options.exact_share = float(share / kPercent);
@@ -154,7 +155,8 @@ void add_reorderings(Report& report, const MatrixCase& matrix_case)
 {
     report.table("reordering", "Error by reordering ([SF17] figure 7), BC1",
                  {"patches come", "encoder", "order", "average: √Σe² / entries", "largest",
-                  "total: Σ e²", "Σ e²: without / this", "Σ e", "Σ e: without / this"});
+                  "total: Σ e²", "Σ e²: without / this", "Σ e", "Σ e: without / this"},
+                 kNoMatrix);
     add_reorderings(report, matrix_case.bounces, "by place");
     add_reorderings(report, shuffled(matrix_case.bounces), "shuffled");
 }
@@ -214,7 +216,7 @@ void add_curve(Report& report, const MatrixCase& matrix_case, const std::string&
                  fmt::format("Bytes ([SF17] figure 12) and error of indirect light, {} states; "
                              "naive: F as floats, without colours, {:.2f} MiB",
                              matrix_case.lights.size(), naive_bytes(matrix_case) / kMebibyte),
-                 {"form", "MiB", "naive / bytes", "RMSE %", "worst state %", "seconds"});
+                 {"form", "MiB", "naive / bytes", "RMSE %", "worst state %", "seconds"}, kNoMatrix);
     for (const FormOfCurve& form : forms_of(matrix_case)) {
         if (form.name.find(wanted) == std::string::npos)
             continue;

@@ -3,10 +3,12 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "atlas/finish/finish.h"
 #include "bench/stopwatch.h"
 #include "jobs/solve/sources.h"
+#include "links/live/live_links.h"
 #include "methods/matrix/relight_session.h"
 #include "results/preview/preview.h"
 
@@ -41,6 +43,30 @@ Scene scene_with_lamp(const Settings& settings)
     return scene;
 }
 
+/// The lamp's place in frame `number`.
+glm::dvec3 lamp_at(const SolveScene& scene, int number, int frames)
+{
+    const glm::vec3 low = scene.rays.low(), size = scene.rays.high() - low;
+    const float along = 0.3f + 0.4f * float(number) / float(frames);
+    return {low + glm::vec3(along, 0.5f, 0.5f) * size};
+}
+
+/// Processor time of a frame by links that are kept [ms], until converged.
+double frame_by_links(const SolveScene& scene, int frames)
+{
+    LiveLinks live(copy_of(scene), {});
+    live.settle();
+    Stopwatch watch;
+    watch.start();
+    for (int number = 1; number <= frames; ++number) {
+        live.move_lamp(kLamp,
+                       glm::translate(glm::mat4(1.0f), glm::vec3(lamp_at(scene, number, frames))));
+        live.settle();
+    }
+    watch.stop();
+    return 1e3 * watch.cpu / frames;
+}
+
 struct Frame {
     Stopwatch emission, transfer, map, picture;
 };
@@ -63,13 +89,10 @@ void add_frame(Report& report, const gpu::Device& device, const MatrixSpeedSetti
     const View view = choose_view(scene.scene, scene.rays);
     Preview preview(device, scene.scene, scene.atlas);
 
-    const glm::vec3 low = scene.rays.low(), size = scene.rays.high() - low;
     Frame frame;
     for (int number = 0; number <= settings.repeats; ++number) {
         Frame next;
-        const float along = 0.3f + 0.4f * float(number) / float(settings.repeats);
-        session.move_light(kLamp,
-                           {.position = glm::dvec3(low + glm::vec3(along, 0.5f, 0.5f) * size)});
+        session.move_light(kLamp, {.position = lamp_at(scene, number, settings.repeats)});
         next.emission.start();
         session.irradiance();
         next.emission.stop();
@@ -99,7 +122,8 @@ void add_frame(Report& report, const gpu::Device& device, const MatrixSpeedSetti
                              "lumels, {} patches, a picture {} pixels wide",
                              settings.shared.scene, session.size(), session.light().patches.size(),
                              kWidth),
-                 {"step", "cpu ms", "wall ms", "ms"});
+                 {"step", "cpu ms", "wall ms", "ms"},
+                 fmt::format("whole frame, {:.2f} ms", frame_by_links(scene, settings.repeats)));
     const bool by_processor = counts_processor_time(device);
     Stopwatch all;
     const auto add = [&](const char* name, const Stopwatch& time) {

@@ -10,6 +10,7 @@
 #include "base/images/image_files.h"
 #include "bench/papers/contact_sheet.h"
 #include "bench/papers/matrix_codes.h"
+#include "bench/papers/our_default.h"
 #include "bench/reference.h"
 #include "bench/stopwatch.h"
 #include "links/direct/direct_rays.h"
@@ -72,29 +73,6 @@ LogImage difference(const LogImage& a, const LogImage& b, std::size_t channels)
     return result;
 }
 
-struct Solved {
-    Image map;
-    double cpu = 0.0;  ///< [s]
-};
-
-Solved solve_by(const gpu::Device& device, const SolveScene& world, const SolverOptions& options)
-{
-    Stopwatch watch;
-    watch.start();
-    const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
-    const World resident(device, world.scene, world.lumels);
-    const auto solver = make_solver({.device = &device,
-                                     .world = &resident,
-                                     .lumels = world.lumels,
-                                     .near = near,
-                                     .scene = &world},
-                                    options);
-    solve(*solver, options);
-    Image map = finish_map(world.scene, world.atlas, world.lumels, solver->irradiance());
-    watch.stop();
-    return {std::move(map), watch.cpu};
-}
-
 std::vector<glm::vec3> direct_of(const SolveScene& world)
 {
     DirectRays direct(world, 1, kMatrixError, {});
@@ -142,7 +120,7 @@ void add_logarithms(Report& report, const MatrixCase& matrix_case)
     report.table("logarithms",
                  "Entries but the largest 4 % of a row, as logarithms ([SF17] figure 3) and as "
                  "codes after 25 is added (figure 4)",
-                 {"ln(entry / largest)", "code", "share %"});
+                 {"ln(entry / largest)", "code", "share %"}, kNoMatrix);
     const auto share = [&](std::size_t count) {
         return fixed(kPercent * double(count) / double(all), 2);
     };
@@ -200,10 +178,12 @@ void draw_beside_paths(const gpu::Device& device, const Settings& settings, std:
     const Image by_blocks = map_through(world, transport, blocks, direct);
     const Solved by_matrix =
         solve_by(device, world, {.method = method, .target_error = kMatrixError});
-    const Solved by_default = solve_by(device, world, {.target_error = kMatrixError});
+    const Solved by_default = solve_by_default(device, world);
+    const Image map_by_default = map_of(world, by_default);
 
     report.table("paths", "Beside path tracing ([SF17] figure 13)",
-                 {"map", "cpu s", "from paths, RMSE %", "bias %"});
+                 {"map", "cpu s", "from paths, RMSE %", "bias %"},
+                 words_of(compare_maps(map_by_default, *truth).relative_rmse, by_default.cpu));
     report.row({"paths", fixed(watch.cpu, 1), none(), none()});
     const auto add = [&](const std::string& name, const Image& map, const Cell& cpu) {
         const MapError error = compare_maps(map, *truth);
@@ -212,8 +192,7 @@ void draw_beside_paths(const gpu::Device& device, const Settings& settings, std:
     };
     add(fmt::format("naive radiosity, {} bounces", kNaiveBounces), by_naive, none());
     add("--form bc1, last bounce by rows", by_blocks, none());
-    add("--solver matrix, last bounce by rays", by_matrix.map, fixed(by_matrix.cpu, 1));
-    add("our default, links", by_default.map, fixed(by_default.cpu, 1));
+    add("--solver matrix, last bounce by rays", map_of(world, by_matrix), fixed(by_matrix.cpu, 1));
 
     const View view = choose_view(world.scene, world.rays);
     const auto draw = [&](const Image& map) {
@@ -224,7 +203,7 @@ void draw_beside_paths(const gpu::Device& device, const Settings& settings, std:
     const auto picture = [&](const Image& map) { return tone_map(draw(map), exposure); };
     const std::string path = folder + "/matrix-and-paths.png";
     write_png(path, contact_sheet({{picture(by_naive), tone_map(by_paths, exposure)},
-                                   {picture(by_blocks), picture(by_default.map)}}));
+                                   {picture(by_blocks), picture(map_by_default)}}));
     report.picture(path, "[SF17] figures 13 and 14: above naive radiosity and path tracing, below "
                          "BC1 and our default. The papers' light propagation volume, a picture of "
                          "another engine, is left out: a column that it shows in one colour is a "

@@ -21,6 +21,7 @@
 #include "bench/papers/matrix_speed.reflect.comp.h"
 #include "bench/papers/matrix_speed.row.comp.h"
 #include "bench/papers/matrix_speed.shared.h"
+#include "bench/papers/our_default.h"
 #include "bench/stopwatch.h"
 #include "solve/matrix/multiply.h"
 
@@ -165,12 +166,15 @@ std::vector<TimedForm> forms_of(const MatrixCase& matrix_case, bool textures)
 void add_against_naive(Report& report, const gpu::Device& device, const MatrixCase& matrix_case,
                        const MatrixSpeedSettings& settings)
 {
-    report.table("speed",
-                 fmt::format("One multiply against naive radiosity of {} bounces ([SF17] figure "
-                             "11): {}, {} patches",
-                             settings.bounces.back(), settings.shared.scene, matrix_case.size()),
-                 {"what", "MiB", "cpu ms", "wall ms", "naive / this, cpu", "naive / this, wall",
-                  "naive / this", "difference from all bounces %"});
+    report.table(
+        "speed",
+        fmt::format("One multiply against naive radiosity of {} bounces ([SF17] figure "
+                    "11): {}, {} patches",
+                    settings.bounces.back(), settings.shared.scene, matrix_case.size()),
+        {"what", "MiB", "cpu ms", "wall ms", "naive / this, cpu", "naive / this, wall",
+         "naive / this", "difference from all bounces %"},
+        fmt::format("whole map, {:.2f} s",
+                    solve_by_default(device, prepare(settings.shared, settings.shared.size)).cpu));
     const std::vector<glm::vec3>& light = matrix_case.lights.front();
     const std::vector<glm::vec3> truth = multiply(matrix_case.bounces, light);
     const gpu::Array<glm::vec3> x(device, std::span<const glm::vec3>(light));
@@ -208,7 +212,8 @@ void add_growth(Report& report, const gpu::Device& device, const MatrixSpeedSett
                  fmt::format("Bytes and multiplies as patches grow, {}: beyond the paper",
                              settings.shared.scene),
                  {"patches", "form", "MiB", "bytes / patch", "naive / bytes", "cpu ms", "wall ms",
-                  "light, RMSE %", "seconds to compress"});
+                  "light, RMSE %", "seconds to compress"},
+                 kNoMatrix);
     const double mebi = 1048576.0;
     for (const int patches : settings.growth) {
         const MatrixCase matrix_case =
@@ -331,7 +336,8 @@ void add_large(Report& report, const gpu::Device& device, const MatrixSpeedSetti
                              "reads and writes {:.2f} GB/s",
                              n, n, copy / kGigabyte),
                  {"kernel", "MiB", "cpu ms", "wall ms", "row by row / this, cpu",
-                  "row by row / this, wall", "GB/s read", "of the copy %"});
+                  "row by row / this, wall", "GB/s read", "of the copy %"},
+                 kNoMatrix);
     const std::vector<float> ones(std::size_t(filled_up(n)) * 3, 1.0f);
     const gpu::Array<float> in(device, std::span<const float>(ones));
     const gpu::Array<float> out(device, ones.size());

@@ -14,14 +14,15 @@ struct ThesisScene {
     const char* key;    ///< on the command line
     const char* title;  ///< in the thesis
     const char* path;
+    int picture;  ///< n of figure 5.2.n
     bool low_quality = false;
 };
 
 inline constexpr ThesisScene kThesisScenes[] = {
-    {"indirect", "Indirect light", "scenes/moving-indirect.gltf"},
-    {"large", "Cornell, large", "scenes/moving-large-lamp.gltf"},
-    {"small", "Cornell, small", "scenes/moving-small-lamp.gltf"},
-    {"low", "Low quality", "scenes/moving-large-lamp.gltf", true},
+    {"indirect", "Indirect light", "scenes/moving-indirect.gltf", 1},
+    {"large", "Cornell, large", "scenes/moving-large-lamp.gltf", 2},
+    {"small", "Cornell, small", "scenes/moving-small-lamp.gltf", 3},
+    {"low", "Low quality", "scenes/moving-large-lamp.gltf", 4, true},
 };
 
 /// Name of what turns.

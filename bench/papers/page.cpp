@@ -31,6 +31,10 @@ p.missed { background: #f8dcdc; }
 constexpr const char* kColours =
     "Missed numbers have three colours: blue where the device is the cause (a processor "
     "rasterises), yellow where the paper's own scheme is, run as published, red where it is ours.";
+constexpr const char* kDefaults =
+    "The last column of every table is what our default method makes of the same scene with the "
+    "same map: links, for glossy materials glossy, at its default quality, with its error against "
+    "the same reference and its processor time; or two words that say why there is none.";
 constexpr const char* kTimes =
     "Ratios of times are of wall time on a GPU, and of processor time where the device is the "
     "processor, whose wall time other work lengthens.";
@@ -94,16 +98,17 @@ std::string comparison_of(const Outcomes& outcomes)
 {
     std::string page = head_of("Ours beside the papers' numbers: " + tally_of(outcomes),
                                {"paper", "where", "what", "paper's", "ours", "met if", "verdict",
-                                "what the numbers are of"});
+                                "what the numbers are of", kOurDefault});
     for (const PaperValue& value : paper_values()) {
         const Judgement judgement = judge(value, outcomes);
         const std::string verdict = words_of(judgement.verdict);
         const std::string reason = judgement.reason.empty() ? "" : judgement.reason + " ";
         page += row_of("td",
-                       std::array<std::string, 8>{
+                       std::array<std::string, 9>{
                            value.paper, value.place, value.quantity, value.value, judgement.ours,
                            bar_of(value), verdict,
-                           reason + words_of_cause(judgement.verdict, value.cause) + value.note},
+                           reason + words_of_cause(judgement.verdict, value.cause) + value.note,
+                           judgement.our_default},
                        fmt::format("class=\"{} {}\"", verdict, words_of(value.cause)));
     }
     return page + "</table>\n";
@@ -180,7 +185,8 @@ std::string page_of(const Outcomes& outcomes, Extent extent, const std::string& 
 {
     std::string page = kHead + element("h1", "The papers' figures, made again") + "\n" +
                        element("p", words_of(extent)) + "\n" + element("p", kTimes) + "\n" +
-                       element("p", kColours) + "\n" + comparison_of(outcomes) + left_out();
+                       element("p", kColours) + "\n" + element("p", kDefaults) + "\n" +
+                       comparison_of(outcomes) + left_out();
     for (const Run& run : all_runs())
         if (const auto outcome = outcomes.find(run.key); outcome != outcomes.end())
             page += section_of(run, outcome->second, extent, folder);

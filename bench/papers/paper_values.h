@@ -45,8 +45,9 @@ enum class Verdict { met, missed, not_comparable, not_measured };
 
 struct Judgement {
     Verdict verdict = Verdict::not_measured;
-    std::string ours;    ///< as our table has it
-    std::string reason;  ///< why nothing was measured
+    std::string ours;         ///< as our table has it
+    std::string our_default;  ///< as its last column has it
+    std::string reason;       ///< why nothing was measured
 };
 
 /// What became of one run.

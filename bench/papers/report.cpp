@@ -61,8 +61,10 @@ void Report::say(std::string line)
     parts_.emplace_back(std::move(line));
 }
 
-void Report::table(std::string key, std::string title, std::vector<std::string> columns)
+void Report::table(std::string key, std::string title, std::vector<std::string> columns, Cell ours)
 {
+    ours_ = std::move(ours);
+    columns.emplace_back(kOurDefault);
     fmt::print("\n{}\n\n|", title);
     for (const std::string& column : columns)
         fmt::print(" {} |", escaped(column));
@@ -76,6 +78,12 @@ void Report::table(std::string key, std::string title, std::vector<std::string> 
 
 void Report::row(std::vector<Cell> cells)
 {
+    row(std::move(cells), ours_);
+}
+
+void Report::row(std::vector<Cell> cells, Cell ours)
+{
+    cells.push_back(std::move(ours));
     auto* table = parts_.empty() ? nullptr : std::get_if<Table>(&parts_.back());
     if (!table || cells.size() != table->columns.size())
         throw std::logic_error("a row that fits no table");

@@ -27,10 +27,16 @@ Cell signed_fixed(double value, int decimals);  ///< "+3.14"
 Cell significant(double value, int digits);     ///< "3.14e-05"
 Cell none();                                    ///< "–": was not measured
 
+/// Last column of each table.
+inline constexpr const char* kOurDefault = "our default";
+/// Reasons why it has no cell.
+inline constexpr const char *kNoMatrix = "no matrix", *kNoShooters = "no shooters",
+                            *kTracesRays = "traces rays", *kSolvedAnew = "solved anew";
+
 struct Table {
-    std::string key;    ///< by which the papers' numbers find it, unique in a report
-    std::string title;  ///< what it shows; where a paper does, its figure or table
-    std::vector<std::string> columns;
+    std::string key;                   ///< by which the papers' numbers find it, unique in a report
+    std::string title;                 ///< what it shows; where a paper does, its figure or table
+    std::vector<std::string> columns;  ///< kOurDefault last
     std::vector<std::vector<Cell>> rows;
 };
 
@@ -46,10 +52,12 @@ public:
 
     /// A line: scene, device, settings.
     void say(std::string line);
-    /// Begins a table, to which row() adds.
-    void table(std::string key, std::string title, std::vector<std::string> columns);
+    /// Begins a table, to which row() adds. ours: of our default method for the same scene, in the
+    /// last column of all rows that have no other; or two words that say why it has none.
+    void table(std::string key, std::string title, std::vector<std::string> columns, Cell ours);
     /// As many cells as columns. Throws std::logic_error otherwise.
     void row(std::vector<Cell> cells);
+    void row(std::vector<Cell> cells, Cell ours);
     void picture(std::string path, std::string caption);
 
     const std::vector<Part>& parts() const { return parts_; }
@@ -58,6 +66,7 @@ public:
 
 private:
     std::vector<Part> parts_;
+    Cell ours_ = none();  ///< of the current table
 };
 
 /// "llvmpipe (…) (driver)"

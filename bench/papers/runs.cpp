@@ -60,7 +60,7 @@ constexpr Run kRuns[] = {
      "Excess of red over green on the plane on top after all directions, on its lower side, where "
      "light may leak. The distances and albedos of the planes are ours: the paper does not give "
      "its own.",
-     "layers --size 64 --directions 1500 --views 2 --lookup-test paper -o {out}",
+     "layers --size 64 --directions 1000 --views 2 --lookup-test paper -o {out}",
      "layers --size 64 --lookup-test paper -o {out}",
      "layers --size 16 --map-side 64 --directions 4 --overdraw 1,4 --slabs 1,2 --views 1 -o {out}"},
     {"leak", "Leaky integration",
@@ -81,10 +81,10 @@ constexpr Run kRuns[] = {
      "first; a table of errors for either state. Errors are of the lumels' "
      "irradiance; the thesis has them of pictures.",
      "dynamic --hemicube 64 --size 64 --low-size 32 --steps 3 --reference-spp 512 --no-gather "
-     "--pieces 1",
-     "dynamic --hemicube 64 --no-gather --pieces 1",
+     "--pieces 1 --width 200 -o {out}",
+     "dynamic --hemicube 64 --no-gather --pieces 1 -o {out}",
      "dynamic --size 16 --low-size 16 --hemicube 16 --steps 1 --reference-spp 4 "
-     "--residual 0.1 --no-gather --pieces 1"},
+     "--residual 0.1 --no-gather --pieces 1 --width 16 -o {out}"},
     {"gather", "A box that turns, with gathering",
      "The same with gathering, which goes on until its error is estimated at 2 %.",
      "dynamic --scenes large,small,low --hemicube 64 --size 24 --low-size 16 --steps 1 "

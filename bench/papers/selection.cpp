@@ -136,7 +136,8 @@ void time_selection(const SelectionSettings& settings, Report& report)
     report.table("selection", "Time of drawing a shooter ([BJ04] section 3.1)",
                  {"map", "lumels", "read-back, cpu ms", "read-back, wall ms", "device, cpu ms",
                   "device, wall ms", "read-back / device", "rest of an iteration, ms",
-                  "read-back / rest", "device / rest", "same lumel"});
+                  "read-back / rest", "device / rest", "same lumel"},
+                 kNoShooters);
     const std::vector<float> numbers = draw_numbers(settings.draws, seed_of(options.method));
     double largest = 0.0;  // read-back over the rest
     for (const int size : settings.sizes) {
@@ -157,7 +158,7 @@ void time_selection(const SelectionSettings& settings, Report& report)
                     fmt::format("{} of {}", agreeing(host, gpu), numbers.size())});
         largest = host.wall_ms / rest;
     }
-    report.table("summary", "In short, wall time", {"what", "map", "value"});
+    report.table("summary", "In short, wall time", {"what", "map", "value"}, kNoShooters);
     report.row({"read-back / rest", fmt::format("{}²", settings.sizes.back()), fixed(largest, 2)});
     device.check_validation();
 }

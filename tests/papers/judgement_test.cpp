@@ -31,9 +31,9 @@ Outcomes outcomes_with(Cell cell)
 {
     Outcomes outcomes;
     Report& report = outcomes["run"].report;
-    report.table("errors", "Errors", {"technique", "scene", "RMSE %"});
+    report.table("errors", "Errors", {"technique", "scene", "RMSE %"}, "1.00 %, 2.00 s");
     report.row({"cross", "large", 9});
-    report.row({"cross", "small", std::move(cell)});
+    report.row({"cross", "small", std::move(cell)}, "3.00 %, 4.00 s");
     return outcomes;
 }
 
@@ -68,6 +68,17 @@ TEST(Judgement, OursIsShownWithoutABar)
     EXPECT_EQ(judgement.ours, "3.0");
 }
 
+TEST(Judgement, OurDefaultIsThatOfTheRow)
+{
+    const auto of_row = [](const char* row) {
+        PaperValue value = value_with(Bar::none, 0.0);
+        value.row = row;
+        return judge(value, outcomes_with(fixed(3.0, 1))).our_default;
+    };
+    EXPECT_EQ(of_row("cross, large"), "1.00 %, 2.00 s");
+    EXPECT_EQ(of_row("cross, small"), "3.00 %, 4.00 s");
+}
+
 TEST(Judgement, AFigureThatFailedSaysWhy)
 {
     Outcomes outcomes;
@@ -91,7 +102,7 @@ TEST(Report, ARowThatFitsNoTableIsAMistake)
 {
     Report report;
     EXPECT_THROW(report.row({1}), std::logic_error);
-    report.table("errors", "Errors", {"technique", "RMSE %"});
+    report.table("errors", "Errors", {"technique", "RMSE %"}, none());
     EXPECT_THROW(report.row({"cross"}), std::logic_error);
 }
 

@@ -72,7 +72,7 @@ void expect_well_formed(const std::string& page)
 
 const char* const kRow =
     "<tr class=\"([^\"]*)\">(?:<td>[^<]*</td>){4}<td>([^<]*)</td><td>[^<]*</td>"
-    "<td>([^<]*)</td><td>([^<]*)</td></tr>";
+    "<td>([^<]*)</td><td>([^<]*)</td><td>([^<]*)</td></tr>";
 
 TEST(Papers, EveryNumberOfThePapersHasAVerdictBesideOurs)
 {
@@ -91,8 +91,15 @@ TEST(Papers, EveryNumberOfThePapersHasAVerdictBesideOurs)
         EXPECT_TRUE(row[3] == "met" || row[3] == "missed" || row[3] == "not comparable") << row[0];
         EXPECT_TRUE(std::regex_match(row[2], std::regex("[-+]?[0-9.]+(e[-+][0-9]+)?"))) << row[0];
         EXPECT_FALSE(row[4].empty()) << row[0];
+        EXPECT_FALSE(row[5].empty() || row[5] == "–") << row[0];
     }
     EXPECT_TRUE(found(page, "<td>[-+]?(nan|inf)</td>").empty());
+    // The last column of every figure's tables is our default.
+    const std::string figures = page.substr(page.find("<h2 id="));
+    const std::size_t tables = found(figures, "<table>").size();
+    EXPECT_GT(tables, all_runs().size());
+    EXPECT_EQ(found(figures, "<th>our default</th></tr>").size(), tables);
+    EXPECT_TRUE(found(figures, "<td>(|–|nan[^<]*|inf[^<]*)</td></tr>").empty());
     const auto pictures = found(page, "<img src=\"([^\"]*)\"");
     EXPECT_FALSE(pictures.empty());
     for (const auto& picture : pictures)

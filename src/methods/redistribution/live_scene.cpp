@@ -140,7 +140,8 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
         paper_cross_.emplace(
             device, scene_, world_, lumels_, solver_, edits_.movers(), open_meshes(scene_),
             options.redistribution == Redistribution::paper_cross ? CrossProjection::whole
-                                                                  : CrossProjection::incremental);
+                                                                  : CrossProjection::incremental,
+            options.reprojects);
     else if (options.redistribution == Redistribution::paper_incremental)
         paper_incremental_.emplace(device, world_, lumels_, solver_, rows_);
     else

@@ -43,6 +43,7 @@ inline bool crosses(Redistribution redistribution)
 struct LiveOptions {
     AtlasOptions atlas;
     Redistribution redistribution = Redistribution::incremental;
+    bool reprojects = true;  ///< false: paper_cross without Reproject, [Hoef13] figure 4.5.3
     ProgressiveOptions solver;
     double target_error = SolverOptions{}.target_error;  ///< for the near field only
     std::vector<std::uint32_t> movers;                   ///< movable instances; empty: all

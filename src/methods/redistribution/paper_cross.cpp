@@ -64,7 +64,7 @@ std::vector<std::uint32_t> movable(const Lumels& lumels)
 PaperCross::PaperCross(const gpu::Device& device, const Scene& scene, World& world,
                        const Lumels& lumels, ProgressiveRadiosity& solver,
                        const std::vector<char>& movers, const std::vector<char>& open,
-                       CrossProjection projection)
+                       CrossProjection projection, bool reprojects)
     : device_(&device),
       world_(&world),
       lumels_(&lumels),
@@ -82,7 +82,8 @@ PaperCross::PaperCross(const gpu::Device& device, const Scene& scene, World& wor
       is_mover_(device, view(words_of(movers))),
       of_mover_(device, view(movable(lumels))),
       crossed_(device, lumels.lumels.size()),
-      triangles_(device, 1)
+      triangles_(device, 1),
+      reprojects_(reprojects)
 {
     for (std::uint32_t i = 0; i < movers.size(); ++i) {
         if (!movers[i] || projection == CrossProjection::whole)
@@ -216,7 +217,8 @@ void PaperCross::receive()
                                      .back = sides_.back_layout(),
                                      .shots = sides_.batch(),
                                      .sign_factor = phase_ == Phase::in ? 1.0f : -1.0f,
-                                     .triangles = culls_ ? std::uint32_t(triangles_.size()) : 0u});
+                                     .triangles = culls_ ? std::uint32_t(triangles_.size()) : 0u,
+                                     .reprojects = reprojects_ ? 1u : 0u});
 }
 
 }  // namespace lumel

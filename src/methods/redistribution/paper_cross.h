@@ -27,10 +27,11 @@ class PaperCross {
 public:
     /// world: the solver's, made with movers, whose lumels are kLumelMoving and have no near field.
     /// open [instances]: 1 for meshes whose backs without lumels are visible from outside. movers
-    /// [instances]: 1 if movable. The world, the lumels and the solver must outlive this.
+    /// [instances]: 1 if movable. reprojects: false leaves out Reproject, as figure 4.5.3 does. The
+    /// world, the lumels and the solver must outlive this.
     PaperCross(const gpu::Device& device, const Scene& scene, World& world, const Lumels& lumels,
                ProgressiveRadiosity& solver, const std::vector<char>& movers,
-               const std::vector<char>& open, CrossProjection projection);
+               const std::vector<char>& open, CrossProjection projection, bool reprojects = true);
 
     /// Starts to take movable objects out of their position in the world, if they are in the
     /// solution, and to put them in at `transforms` [instances]. Requires !is_under_way().
@@ -74,9 +75,10 @@ private:
     std::vector<LocalTriangle> local_triangles_;
     gpu::Array<MoverTriangle> triangles_;  ///< of M in its other position
     std::vector<glm::mat4> after_;         ///< [instances] transforms to put M in at
-    bool culls_ = false;                   ///< this redistribution is incremental
-    bool inserted_ = false;                ///< M is in the solution
-    std::uint32_t next_ = 0;               ///< next entry of the list
+    bool reprojects_;
+    bool culls_ = false;      ///< this redistribution is incremental
+    bool inserted_ = false;   ///< M is in the solution
+    std::uint32_t next_ = 0;  ///< next entry of the list
     Phase phase_ = Phase::none;
     std::uint64_t hemicubes_ = 0;
 };

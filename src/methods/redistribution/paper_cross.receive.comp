@@ -54,14 +54,17 @@ bool is_culled(vec3 x, vec3 ray)
 }
 
 // Light that the ray from x through y meets behind the patch. Reproject: a ray of the same
-// direction from the back eye predicts the distance from y at which it ends.
+// direction from the back eye predicts the distance from y at which it ends. Without, that ray is
+// taken for the other, as in figure 4.5.3.
 vec3 light_along(uint k, mat3 frame, vec3 x, vec3 y)
 {
     const vec3 direction = normalize(y - x) * frame;
     const float inverse = direction.z > 0.0 ? inverse_behind(p.back, k, direction) : 0.0;
     if (inverse <= 0.0 || is_culled(x, y - x + frame * direction / inverse))
         return vec3(0.0);
-    const vec3 toward = (y - eyes[k].position) * frame + direction / inverse;
+    const vec3 toward = p.reprojects != 0u
+                            ? (y - eyes[k].position) * frame + direction / inverse
+                            : direction;
     return toward.z > 0.0 ? level_behind(p.back, k, 0u, toward) : vec3(0.0);
 }
 

@@ -24,6 +24,7 @@ struct PaperReceiveParams {
     uint shots;           ///< K
     float sign_factor;    ///< -1: takes the patches out of their old position, 1: puts them in
     uint triangles;       ///< of movable objects in their other position; 0: no ray is culled
+    uint reprojects;      ///< 0: rays end in their own direction from the back eye, figure 4.5.3
 };
 
 LUMEL_SHARED_END
