@@ -214,10 +214,10 @@ void add_residual(CLI::App* figure, double& residual)
         ->capture_default_str();
 }
 
-void add_dynamic(CLI::App& app, DynamicSettings& settings, Report& report)
+/// Of the scenes in which the box turns.
+CLI::App* add_moving(CLI::App& app, const char* name, const char* help, DynamicSettings& settings)
 {
-    settings.shared.reference_spp = 1024;
-    CLI::App* figure = app.add_subcommand("dynamic", "A solution is corrected as a box turns");
+    CLI::App* figure = app.add_subcommand(name, help);
     figure->add_option("--device", settings.shared.device, "as lumel devices lists");
     figure->add_option("--scenes", settings.scenes, "some of indirect, large, small, low")
         ->delimiter(',')
@@ -232,6 +232,14 @@ void add_dynamic(CLI::App& app, DynamicSettings& settings, Report& report)
     add_number(figure, "--degrees", settings.degrees, "that the box turns in a step");
     add_residual(figure, settings.residual);
     add_number(figure, "--steps", settings.steps, "after the first, of which the median counts");
+    return figure;
+}
+
+void add_dynamic(CLI::App& app, DynamicSettings& settings, Report& report)
+{
+    settings.shared.reference_spp = 1024;
+    CLI::App* figure =
+        add_moving(app, "dynamic", "A solution is corrected as a box turns", settings);
     add_number(figure, "--reference-spp", settings.shared.reference_spp,
                "paths per lumel for the truth; 0: none", 0);
     figure->add_option("-o,--out", settings.folder, "folder for pictures");
@@ -244,6 +252,13 @@ void add_dynamic(CLI::App& app, DynamicSettings& settings, Report& report)
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     figure->callback([&settings, &report] { follow_moves(settings, report); });
+}
+
+void add_cross_shares(CLI::App& app, DynamicSettings& settings, Report& report)
+{
+    CLI::App* figure =
+        add_moving(app, "cross-shares", "What keeps cross from a solution from scratch", settings);
+    figure->callback([&settings, &report] { share_out_cross(settings, report); });
 }
 
 void add_drift(CLI::App& app, DriftSettings& settings, Report& report)
@@ -306,6 +321,7 @@ void add_figures(CLI::App& app, Figures& figures, Report& report)
     add_leak(app, figures.leak, report);
     add_directions(app, figures.directions, report);
     add_dynamic(app, figures.dynamic, report);
+    add_cross_shares(app, figures.cross_shares, report);
     add_drift(app, figures.drift, report);
     add_matrix(app, figures.matrix, report);
     add_matrix_speed(app, figures.matrix_speed, report);

@@ -24,6 +24,7 @@ struct Figures {
     LeakSettings leak;
     DirectionsSettings directions;
     DynamicSettings dynamic;
+    DynamicSettings cross_shares;
     DriftSettings drift;
     MatrixSettings matrix;
     MatrixSpeedSettings matrix_speed;

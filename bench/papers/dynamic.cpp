@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/cut.h"
 #include "bench/papers/dynamic_pictures.h"
+#include "bench/papers/dynamic_stage.h"
 #include "bench/papers/dynamic_tables.h"
 #include "bench/papers/figures.h"
 #include "bench/stopwatch.h"
@@ -26,43 +26,6 @@ constexpr std::pair<MoveTechnique, Redistribution> kRedistributions[] = {
     {kPaperIncremental, Redistribution::paper_incremental},
     {kPaperCross, Redistribution::paper_cross},
     {kPaperCrossIncremental, Redistribution::paper_cross_incremental}};
-/// One scene, the places of its box and how it is laid out.
-struct Stage {
-    Scene scene;
-    std::uint32_t box = 0;
-    std::vector<glm::mat4> places;  ///< one after another
-    LiveOptions options;
-    GatherOptions gather;
-};
-
-Stage set(const ThesisScene& which, const DynamicSettings& settings, int pieces)
-{
-    Stage stage{.scene = read_gltf(which.path)};
-    if (pieces > 1)
-        stage.scene = cut(stage.scene, pieces);
-    stage.box = find_instance(stage.scene, kBox);
-    for (int step = 1; step <= settings.steps + 1; ++step)
-        stage.places.push_back(turned(stage.scene, stage.box, double(step * settings.degrees)));
-    stage.options.atlas.size = which.low_quality ? settings.low_size : settings.shared.size;
-    stage.options.solver = options_of<ProgressiveOptions>(settings.shared);
-    if (which.low_quality) {
-        stage.options.solver.views.hemicube = settings.low_hemicube;
-        stage.options.solver.shooters = std::uint32_t(settings.low_shooters);
-    }
-    stage.gather = options_of<GatherOptions>(settings.shared);
-    stage.options.movers = {stage.box};
-    stage.options.residual = settings.residual;
-    return stage;
-}
-
-/// With the box in its last place.
-Scene posed(const Stage& stage)
-{
-    Scene scene = stage.scene;
-    scene.instances[stage.box].transform = stage.places.back();
-    return scene;
-}
-
 void count(const Stage& stage, const Lumels& lumels, MoveResults& results)
 {
     for (const Lumel& lumel : lumels.lumels)
@@ -221,16 +184,6 @@ std::string suffix_of(const std::vector<int>& all_pieces, int pieces)
     constexpr std::array suffixes{"", "-first", "-second"};
     return place < std::ptrdiff_t(suffixes.size()) ? suffixes[std::size_t(place)]
                                                    : fmt::format("-{}", pieces);
-}
-
-std::vector<ThesisScene> scenes_of(const DynamicSettings& settings)
-{
-    std::vector<ThesisScene> scenes;
-    for (const ThesisScene& scene : kThesisScenes)
-        if (settings.scenes.empty() ||
-            std::count(settings.scenes.begin(), settings.scenes.end(), std::string(scene.key)) > 0)
-            scenes.push_back(scene);
-    return scenes;
 }
 
 }  // namespace

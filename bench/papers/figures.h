@@ -137,6 +137,9 @@ struct DynamicSettings {
 /// time, hemicubes and pictures of correcting a solution when something moves.
 void follow_moves(const DynamicSettings& settings, Report& report);
 
+/// What of the distance between `cross` and a solution from scratch comes from where.
+void share_out_cross(const DynamicSettings& settings, Report& report);
+
 struct DriftSettings {
     Settings shared;
     int degrees = 10;                          ///< that the box turns, there and back

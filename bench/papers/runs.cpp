@@ -85,6 +85,14 @@ constexpr Run kRuns[] = {
      "dynamic --hemicube 64 --no-gather --pieces 1 -o {out}",
      "dynamic --size 16 --low-size 16 --hemicube 16 --steps 1 --reference-spp 4 "
      "--residual 0.1 --no-gather --pieces 1 --width 16 -o {out}"},
+    {"cross-shares", "What keeps cross from a solution from scratch",
+     "After the last move, at rest. Rows below the first change one setting, of cross alone or of "
+     "both; the last two are against a progressive solution with finer hemicubes and more "
+     "shooters.",
+     "cross-shares --scenes low --hemicube 64 --low-size 32 --steps 1",
+     "cross-shares --hemicube 64",
+     "cross-shares --scenes low --low-size 16 --low-hemicube 16 "
+     "--low-shooters 8 --steps 1 --residual 0.1"},
     {"gather", "A box that turns, with gathering",
      "The same with gathering, which goes on until its error is estimated at 2 %.",
      "dynamic --scenes large,small,low --hemicube 64 --size 24 --low-size 16 --steps 1 "

@@ -66,7 +66,8 @@ NearField rows_of_still(const NearField& near, const Lumels& lumels)
 CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world,
                                          const Lumels& lumels, ProgressiveRadiosity& solver,
                                          const std::vector<char>& movers,
-                                         const std::vector<char>& open, std::uint64_t most_bytes)
+                                         const std::vector<char>& open, const CrossOptions& options,
+                                         std::uint64_t most_bytes)
     : device_(&device),
       world_(&world),
       lumels_(&lumels),
@@ -76,8 +77,8 @@ CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world
       send_(device),
       receive_(device, std::uint32_t(solver.shots().views().projection())),
       settle_(device),
-      lamps_(device, world, lumels, solver, movers, most_bytes),
-      sides_(device, world, lumels, solver, open, kBackSide, kBackLevels),
+      lamps_(device, world, lumels, solver, movers, options.lamp_points, most_bytes),
+      sides_(device, world, lumels, solver, open, options.level, kBackSide, kBackLevels),
       lumel_of_(device, view(lumels_by_side(lumels))),
       near_first_(device, lumels.lumels.size() + 1),
       near_column_(device, 1),

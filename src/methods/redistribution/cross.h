@@ -14,15 +14,24 @@
 
 namespace lumel {
 
+struct CrossOptions {
+    /// Points of a lamp that shoot past movable objects, at most. Where the solution shoots from
+    /// more, shadows of these objects are coarser than in a solution from scratch.
+    std::uint32_t lamp_points = 64;
+    /// Level of movable patches: at 1 blocks of 2 × 2 lumels instead of 4 × 4, four times as many.
+    std::uint32_t level = 0;
+};
+
 /// Redistributes light shot among static lumels, batch by batch.
 class CrossRedistribution {
 public:
     /// world: the solver's, made with movers, whose lumels are kLumelMoving. open [instances]: 1
     /// for meshes whose backs without lumels are visible from outside. movers [instances]: 1 if
-    /// movable. most_bytes: VisibilityRows. All but the last three must outlive this.
+    /// movable. most_bytes: VisibilityRows. All but the last four must outlive this.
     CrossRedistribution(const gpu::Device& device, World& world, const Lumels& lumels,
                         ProgressiveRadiosity& solver, const std::vector<char>& movers,
-                        const std::vector<char>& open, std::uint64_t most_bytes);
+                        const std::vector<char>& open, const CrossOptions& options,
+                        std::uint64_t most_bytes);
 
     /// Sets pairs with a movable lumel, for the next positions of instances. Requires
     /// !is_under_way().

@@ -1,8 +1,10 @@
 #version 460
 #include "methods/redistribution/cross.shared.h"
 #include "atlas/packing/lumel.shared.h"
+#include "base/core/hash.glsl"
 #include "solve/shooting/radiosity.glsl"
 #include "raster/world/lumel.glsl"
+#include "raster/world/receiving_point.glsl"
 #include "raster/eyes/sees.glsl"
 #include "raster/eyes/hemicube.glsl"
 #include "raster/near/near_pairs.glsl"
@@ -17,6 +19,10 @@
 // P is the mean of the light behind j hit by rays from i through the lumels of j, from the hemicube
 // on the back of j. F_ij of close pairs is the near field's. Backs of patches of open meshes
 // occlude light as well; they send none.
+//
+// V_ij is that of progressive.receive.comp, of receiving points of the lumel: a lumel that is half
+// behind a lamp is half seen. There the many patches of C average it; M has few, so each takes
+// several points.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { CrossReceiveParams p; };
@@ -35,6 +41,10 @@ const float kMaxRays = 3.0;
 const float kTouching = 0.01;
 // Minimum distance for angles [m].
 const float kMinDistance = 1e-6;
+
+// Receiving points for V_ij. With one, the distance from a solution from scratch is a seventh
+// larger where a lamp hides half of a lumel.
+const uint kVisibilityPoints = 4u;
 
 // Light in that direction, interpolated between two levels.
 vec3 behind(uint k, float level, vec3 direction)
@@ -89,18 +99,30 @@ vec3 light_behind(uint k, Receiver r, Lumel m, bool is_asked)
     return weights > 0.0 ? sum / weights : vec3(0.0);
 }
 
-// F_ij for the lumel j of patch k, given visibility of the patch's eye.
-float factor_of(Receiver r, uint k, uint j, bool is_eye_seen)
+// V_ij: share of the lumel's receiving points that the patch's eye sees.
+float visibility(Lumel lumel, uint i, uint k)
+{
+    uint seen = 0u;
+    for (uint n = 0u; n < kVisibilityPoints; ++n) {
+        const LumelPoint x =
+            receiving_point(lumel, i, kVisibilityPoints * shots[k].number + n, 0u, false);
+        seen += is_seen(receiver_at(x, lumel, i), eyes[k], k, p.views) ? 1u : 0u;
+    }
+    return float(seen) / float(kVisibilityPoints);
+}
+
+// F_ij for the lumel j of patch k, given V_ij.
+float factor_of(Receiver r, uint k, uint j, float visible)
 {
     const Lumel from = lumels[j];
     const bool is_back = shots[k].facing < 0.0;
     if (!is_back && is_near(r.centre, r.size, from.position, from.size, p.near_radius))
         return near_factor(r.lumel, j);
-    if (!is_eye_seen)
+    if (visible == 0.0)
         return 0.0;
     // Backs have no near field: the disc of Eq. (2.2.7) keeps close ones finite.
     const float disc = is_back ? from.area / kPi : 0.0;
-    return from.area / kPi *
+    return visible * from.area / kPi *
            point_factor(r.x - from.position, shots[k].facing * from.normal, r.normal, disc);
 }
 
@@ -108,10 +130,10 @@ float factor_of(Receiver r, uint k, uint j, bool is_eye_seen)
 vec3 crossing_light(Receiver r, uint k)
 {
     const PatchShot s = shots[k];
-    const bool is_eye_seen = is_seen(r, eyes[k], k, p.views);
+    const float visible = visibility(lumels[r.lumel], r.lumel, k);
     vec3 sum = vec3(0.0);
     for (uint j = s.first; j < s.first + s.count; ++j) {
-        const float factor = factor_of(r, k, j, is_eye_seen);
+        const float factor = factor_of(r, k, j, visible);
         const vec3 sent = s.facing < 0.0 ? vec3(0.0) : shot[j];
         sum += factor * (sent - light_behind(k, r, lumels[j], factor > 0.0));
     }

@@ -24,8 +24,6 @@
 namespace lumel {
 namespace {
 
-/// Number of points that are enough for any lamp.
-constexpr double kEnoughPoints = 64.0;
 /// Minimum number of points whose shadows' edges follow each other within a lumel.
 constexpr double kEdgesPerLumel = 2.0;
 
@@ -75,7 +73,7 @@ double change(const std::vector<glm::vec3>& before, const std::vector<glm::vec3>
 }  // namespace
 
 double lamp_points(std::span<const Lumel> lamp, const std::vector<MovedBox>& boxes,
-                   const Box& world, double side)
+                   const Box& world, double side, double most)
 {
     double area = 0.0, steepest = 0.0;
     for (const Lumel& lumel : lamp) {
@@ -88,12 +86,12 @@ double lamp_points(std::span<const Lumel> lamp, const std::vector<MovedBox>& box
                 std::max(steepest, b / std::max(distance_to(box, lumel.position), side) - 1.0);
     }
     const double across = kEdgesPerLumel * std::sqrt(area) * steepest / side;
-    return std::clamp(across * across, 1.0, kEnoughPoints);
+    return std::clamp(across * across, 1.0, most);
 }
 
 LampShadows::LampShadows(const gpu::Device& device, World& world, const Lumels& lumels,
                          ProgressiveRadiosity& solver, std::vector<char> movers,
-                         std::uint64_t most_bytes)
+                         std::uint32_t most_points, std::uint64_t most_bytes)
     : device_(&device),
       world_(&world),
       lumels_(&lumels),
@@ -105,6 +103,7 @@ LampShadows::LampShadows(const gpu::Device& device, World& world, const Lumels& 
       is_lamp_(device, view(lamp_of_)),
       light_(device, lumels.lumels.size()),
       side_(mean_side(lumels)),
+      most_points_(most_points),
       least_(solver.shots().layout().charts.size(), 0)
 {
     pairs_.moved.upload(words_of(movers_));
@@ -145,7 +144,8 @@ std::vector<std::uint32_t> LampShadows::levels(const std::vector<MovedBox>& boxe
         const glm::mat4& place = world_->placements()[lamp.front().instance].now;
         for (Lumel& lumel : lamp)
             lumel.position = glm::vec3(place * glm::vec4(lumel.position, 1.0f));
-        const double points = lamp_points(lamp, boxes, {world_->low(), world_->high()}, side_);
+        const double points =
+            lamp_points(lamp, boxes, {world_->low(), world_->high()}, side_, most_points_);
         while (levels[c] > least_[c] && double(patches_of(chart, levels[c] - 1)) >= points)
             --levels[c];
         least_[c] = levels[c];

@@ -11,19 +11,21 @@
 
 namespace lumel {
 
-/// Points from which a lamp's lumels cast shadows of objects in `boxes` [1…64]. A point stands for
-/// a part of the lamp h = √(area / points) wide. An object at distance a displaces the shadow of
-/// that part by up to h (b - a) / 2a on a surface at distance b: at most a quarter of `side`, the
-/// width of a lumel [m], for all surfaces inside `world`.
+/// Points from which a lamp's lumels cast shadows of objects in `boxes` [1…most]. A point stands
+/// for a part of the lamp h = √(area / points) wide. An object at distance a displaces the shadow
+/// of that part by up to h (b - a) / 2a on a surface at distance b: at most a quarter of `side`,
+/// the width of a lumel [m], for all surfaces inside `world`.
 double lamp_points(std::span<const Lumel> lamp, const std::vector<MovedBox>& boxes,
-                   const Box& world, double side);
+                   const Box& world, double side, double most);
 
 /// Lamps are static charts with an emissive lumel.
 class LampShadows {
 public:
-    /// movers [instances]: 1 if movable. most_bytes: VisibilityRows. All must outlive this.
+    /// movers [instances]: 1 if movable. most_points: of a lamp. most_bytes: VisibilityRows. The
+    /// first four must outlive this.
     LampShadows(const gpu::Device& device, World& world, const Lumels& lumels,
-                ProgressiveRadiosity& solver, std::vector<char> movers, std::uint64_t most_bytes);
+                ProgressiveRadiosity& solver, std::vector<char> movers, std::uint32_t most_points,
+                std::uint64_t most_bytes);
 
     /// [N] 1: lumel of a lamp.
     const gpu::Array<std::uint32_t>& lamps() const { return is_lamp_; }
@@ -56,7 +58,8 @@ private:
     PairRedistribution pairs_;
     gpu::Array<std::uint32_t> is_lamp_;
     gpu::Array<glm::vec3> light_;
-    double side_;                       ///< of a mean lumel [m]
+    double side_;  ///< of a mean lumel [m]
+    double most_points_;
     std::vector<std::uint32_t> least_;  ///< [C] coarsest level that moves so far allow
     std::vector<glm::vec3> shot_;       ///< [N] B^s of the lamps when light_ was computed
     std::optional<ShotList> list_;      ///< present while in progress

@@ -135,7 +135,7 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
     });
     if (options.redistribution == Redistribution::cross)
         cross_.emplace(device, world_, lumels_, solver_, edits_.movers(), open_meshes(scene_),
-                       options.visibility_bytes);
+                       options.cross, options.visibility_bytes);
     else if (crosses(options.redistribution))
         paper_cross_.emplace(
             device, scene_, world_, lumels_, solver_, edits_.movers(), open_meshes(scene_),

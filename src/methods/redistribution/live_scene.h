@@ -43,6 +43,7 @@ inline bool crosses(Redistribution redistribution)
 struct LiveOptions {
     AtlasOptions atlas;
     Redistribution redistribution = Redistribution::incremental;
+    CrossOptions cross;
     bool reprojects = true;  ///< false: paper_cross without Reproject, [Hoef13] figure 4.5.3
     ProgressiveOptions solver;
     double target_error = SolverOptions{}.target_error;  ///< for the near field only

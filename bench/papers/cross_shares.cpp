@@ -1,0 +1,138 @@
+// How far `cross` is from a solution from scratch after a move, and what brings it nearer: the
+// shares of lamp points, of visibility, and of light left unshot.
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "bench/papers/dynamic_stage.h"
+#include "bench/papers/figures.h"
+#include "truth/metrics.h"
+
+namespace lumel::bench {
+namespace {
+
+constexpr int kFiner = 4;           ///< as wide are hemicubes
+constexpr std::uint32_t kMore = 8;  ///< as many are shooters
+constexpr double kLessLeft = 0.1;   ///< of the residual
+
+/// H [N] before and after the last move, and processor time of that move.
+struct BeforeAndAfter {
+    Image before, after;
+    double cpu_ms = 0.0;
+};
+
+BeforeAndAfter from_scratch(const gpu::Device& device, const Stage& stage)
+{
+    BeforeAndAfter solved;
+    const auto at = [&](const glm::mat4& place) {
+        LiveScene live(device, stage.scene, stage.options);
+        solved.cpu_ms = update_after_move(live, stage.box, place).whole_cpu_ms;
+        return in_a_row(live.lumels(), live.irradiance());
+    };
+    solved.before = at(stage.places.end()[-2]);
+    solved.after = at(stage.places.back());
+    return solved;
+}
+
+BeforeAndAfter by_cross(const gpu::Device& device, const Stage& stage)
+{
+    LiveOptions options = stage.options;
+    options.redistribution = Redistribution::cross;
+    LiveScene live(device, stage.scene, options);
+    live.settle();
+    BeforeAndAfter solved;
+    for (const glm::mat4& place : stage.places) {
+        solved.before = std::move(solved.after);
+        solved.cpu_ms = update_after_move(live, stage.box, place).whole_cpu_ms;
+        solved.after = in_a_row(live.lumels(), live.irradiance());
+    }
+    return solved;
+}
+
+/// a + b - c, of maps of the same lumels.
+Image plus_minus(const Image& a, const Image& b, const Image& c)
+{
+    Image sum = a;
+    for (std::size_t i = 0; i < sum.values.size(); ++i)
+        if (i % std::size_t(sum.channels) != std::size_t(sum.channels) - 1)
+            sum.values[i] += b.values[i] - c.values[i];
+    return sum;
+}
+
+double apart(const Image& a, const Image& b)
+{
+    return compare_maps(a, b).relative_rmse;
+}
+
+void add_row(Report& report, const std::string& scene, const char* what,
+             const BeforeAndAfter& found, const BeforeAndAfter& scratch)
+{
+    const double change = apart(scratch.before, scratch.after);
+    const double distance = apart(found.after, scratch.after);
+    // The change by the move from the solution from scratch before it: without a standing offset.
+    const double missed =
+        apart(plus_minus(scratch.before, found.after, found.before), scratch.after);
+    report.row({scene, what, fixed(100.0 * change, 3), fixed(100.0 * distance, 3),
+                fixed(100.0 * distance / change, 0), fixed(100.0 * missed / change, 0),
+                fixed(found.cpu_ms, 0)});
+}
+
+void measure(const gpu::Device& device, const std::string& scene, const Stage& stage,
+             Report& report)
+{
+    const BeforeAndAfter scratch = from_scratch(device, stage);
+    const auto add = [&](const char* what, const auto& change_options, bool of_both) {
+        Stage changed = stage;
+        change_options(changed.options);
+        add_row(report, scene, what, by_cross(device, changed),
+                of_both ? from_scratch(device, changed) : scratch);
+    };
+    add(
+        "cross", [](LiveOptions&) {}, false);
+    add(
+        "lamps shoot from the solution's points",
+        [](LiveOptions& options) {
+            options.cross.lamp_points = std::numeric_limits<std::uint32_t>::max();
+        },
+        false);
+    add(
+        "movers' patches of 2 × 2 lumels", [](LiveOptions& options) { options.cross.level = 1; },
+        false);
+    add(
+        "a tenth of the residual, both",
+        [](LiveOptions& options) { options.residual *= kLessLeft; }, true);
+    add(
+        "hemicubes four times as wide, both",
+        [](LiveOptions& options) { options.solver.views.hemicube *= kFiner; }, true);
+    add(
+        "eight times the shooters, both",
+        [](LiveOptions& options) { options.solver.shooters *= kMore; }, true);
+    Stage finer = stage;
+    finer.options.solver.views.hemicube *= kFiner;
+    finer.options.solver.shooters *= kMore;
+    const BeforeAndAfter fine = from_scratch(device, finer);
+    add_row(report, scene, "cross, against progressive with both", by_cross(device, stage), fine);
+    add_row(report, scene, "progressive, against progressive with both", scratch, fine);
+}
+
+}  // namespace
+
+void share_out_cross(const DynamicSettings& settings, Report& report)
+{
+    const gpu::Device device(settings.shared.device);
+    report.say(fmt::format("hemicubes of side {}, {}",
+                           options_of<ProgressiveOptions>(settings.shared).views.hemicube,
+                           words_of(device)));
+    report.table("shares",
+                 "Distance of cross from a solution from scratch after a move, relative RMSE, and "
+                 "what brings it nearer",
+                 {"scene", "what", "change by the move, %", "distance, %", "of the change, %",
+                  "missed of the change, %", "cpu ms of the move"},
+                 kSolvedAnew);
+    for (const ThesisScene& scene : scenes_of(settings))
+        measure(device, scene.title, set(scene, settings, 1), report);
+    device.check_validation();
+}
+
+}  // namespace lumel::bench
