@@ -68,7 +68,9 @@ constexpr Run kRuns[] = {
      "leak --size 48 --map-side 256", "leak", "leak --size 16 --map-side 64 --directions 4,8"},
     {"directions", "Scenes lit by global directions",
      "Wall time of a direction, its map and the gathering. Errors are against exact layers and the "
-     "same directions, by the paper's test and by ours of planes. Lists are what a bake takes.",
+     "same directions, by the paper's test and by ours of planes. Lists are what a bake takes. "
+     "The error of our default is against that list too, so that it has the noise of its "
+     "directions.",
      "directions --scenes cubes,balls,sky,lamp,landscape --size 128 --map-side 512 --directions "
      "256 "
      "--width 240 -o {out}",

@@ -190,9 +190,13 @@ INSTANTIATE_TEST_SUITE_P(Materials, PapersClosedRoom,
                                          Gloss{glm::vec3(0.3f), glm::vec3(0.3f), 10.0f},
                                          Gloss{glm::vec3(0.0f), glm::vec3(0.5f), 30.0f}));
 
-// The same in a picture: the accumulated image of every lumel and the light that arrives.
+// The same in a picture: the accumulated image of every lumel and the light that arrives. With
+// 6,144 shooters the two losses vary between seeds by 0.7 and 0.5 %, so that 2 × the one - the
+// other varies by 1.5 %. Four times as many halve that. What is left is the term of second order in
+// the side, -1.1 % (24,576 shooters), which neither batches of one nor of four shooters change.
 TEST(PapersPicture, HasTheLightThatPathsFindButWhatItsShootersLose)
 {
+    constexpr std::uint64_t kShots = 24'576;
     RenderOptions options;
     options.width = 48;
     options.height = 32;
@@ -201,7 +205,7 @@ TEST(PapersPicture, HasTheLightThatPathsFindButWhatItsShootersLose)
     const Scene scene = read_gltf(support::scene_path("glossy-floor"), MaterialModel::glossy);
     const auto picture = [&](std::uint32_t merge) {
         options.bake.solver = {
-            .method = papers(PapersChoice{merge, true}), .max_shots = 6144, .target_error = 0.0};
+            .method = papers(PapersChoice{merge, true}), .max_shots = kShots, .target_error = 0.0};
         return render(scene, options).image;
     };
     const Image single = picture(0), squares = picture(1);
