@@ -91,16 +91,28 @@ class PapersProjection : public testing::TestWithParam<Projection> {};
 INSTANTIATE_TEST_SUITE_P(Of, PapersProjection,
                          testing::Values(Projection::hemicube, Projection::hemisphere));
 
-TEST_P(PapersProjection, OfBarsiAndJakabSendsTheMeanOfAllIterationsFromOneTexel)
+/// The iteration of [BJ04], with r² alone or with the disc of [BSS05] Eq. (8).
+void expect_the_mean_is_sent(Projection projection, bool disc)
 {
     const SmallFurnace furnace;
-    const StochasticOptions own{.views = {.projection = GetParam(), .hemicube = 256, .batch = 1},
+    const StochasticOptions own{.views = {.projection = projection, .hemicube = 256, .batch = 1},
                                 .rule = SampleRule::centre,
-                                .iteration = {Scheme::paper}};
+                                .iteration = {Scheme::paper},
+                                .disc = disc};
     const support::Resident resident(furnace.scene, furnace.rays, furnace.lumels, {.method = own});
     StochasticRadiosity solver(resident.device, resident.world, furnace.lumels, resident.near, own);
-    expect_one_texel_an_iteration(solver, furnace, true, false);
+    expect_one_texel_an_iteration(solver, furnace, true, disc);
     EXPECT_EQ(resident.device.validation_messages(), "");
+}
+
+TEST_P(PapersProjection, OfBarsiAndJakabSendsTheMeanOfAllIterationsFromOneTexel)
+{
+    expect_the_mean_is_sent(GetParam(), false);
+}
+
+TEST_P(PapersProjection, OfBarsiAndJakabCanSendItFromDiscs)
+{
+    expect_the_mean_is_sent(GetParam(), true);
 }
 
 TEST_P(PapersProjection, OfBarsiAndOthersSendsTheLastIterationFromOneTexel)
