@@ -266,7 +266,7 @@ TEST_F(PaperRedistribution, AMergedPassShootsUnshotLightToo)
 }
 
 // The lamp hangs 5 mm below the ceiling and hides parts of lumels from the box: their V is that of
-// receiving points, as in a solution from scratch. By their centres they would be 2.4 % off.
+// receiving points, as in a solution from scratch. By their centres they would be 2.0 % off.
 TEST_F(PaperRedistribution, LumelsPartlyBehindALampReceiveFromTheBoxAsInANewSolution)
 {
     constexpr int kFine = 2 * kSide;
