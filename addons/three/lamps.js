@@ -81,9 +81,15 @@ const entriesOf = (states) => states instanceof Map ? [...states] : Object.entri
 export async function lampsOf(renderer, gltf) {
     const told = gltf.asset.extras?.lumel?.lamps;
     if (!told?.list?.length) return without('the scene was baked without --per-lamp.');
+    if (!renderer.isWebGLRenderer) return without('lamps need a WebGLRenderer.');
     if (!canAdd(renderer)) return without('this browser cannot draw into textures of floating-point numbers.');
     const bytes = await mapsOf(gltf, told, told.list[0].brightest.length);
     if (!bytes) return without('a tool has dropped the maps of the lamps from the file.');
+    const bound = materialsByPage(gltf.scene);
+    if (bound.length === 0) return without('no material has the lightmap; load the scene with LightmapPlugin.');
+    const fits = bound.every(([{ lightMap: { image } }]) => image &&
+        Math.ceil(image.width / 2) === told.width && Math.ceil(image.height / 2) === told.height);
+    if (!fits) return without('its lamps are in use already, or a tool has changed the size of its lightmap.');
     const sums = bindSums(renderer, gltf.scene, told, bytes);
     const surfaces = lampSurfaces(gltf.scene, told.list);
     const names = told.list.map(({ name }) => name);

@@ -97,9 +97,6 @@ void measure(const gpu::Device& device, const std::string& scene, const Stage& s
         },
         false);
     add(
-        "movers' patches of 2 × 2 lumels", [](LiveOptions& options) { options.cross.level = 1; },
-        false);
-    add(
         "a tenth of the residual, both",
         [](LiveOptions& options) { options.residual *= kLessLeft; }, true);
     add(

@@ -26,6 +26,7 @@ constexpr std::pair<MoveTechnique, Redistribution> kRedistributions[] = {
     {kPaperIncremental, Redistribution::paper_incremental},
     {kPaperCross, Redistribution::paper_cross},
     {kPaperCrossIncremental, Redistribution::paper_cross_incremental}};
+
 void count(const Stage& stage, const Lumels& lumels, MoveResults& results)
 {
     for (const Lumel& lumel : lumels.lumels)

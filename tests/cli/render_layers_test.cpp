@@ -159,6 +159,11 @@ TEST(RenderLayers, RefuseWhatTheyCannotShow)
     for (const char* option : {"--frames", "--paths", "--eye-shots"})
         expect_one_sentence(render(scene, picture, {"--layers", option, "8"}), 2,
                             {option, "cannot be used with --layers"});
+    expect_one_sentence(render(scene, picture, {"--layers", "--sky-directions", "7"}), 2,
+                        {"--sky-directions", "cannot be used with --layers"});
+    expect_one_sentence(
+        render(scene, picture, {"--layers", "--width", "16384", "--places", "65536"}), 2,
+        {"--width 16384", "pixels"});
     expect_one_sentence(render(scene, picture, {"--layers", "--scheme", "paper"}), 2,
                         {"--scheme", "is not read with --layers"});
     expect_one_sentence(render(scene, picture, {"--group", "kitchen=lamp*"}), 2,

@@ -73,6 +73,8 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     }
 
     const std::optional<LampLights> per_lamp = keep_lamps_apart(*solution->solver, stages);
+    if (!per_lamp && keeps_lamps_apart(options))
+        stages.tell("the bake was stopped before the maps of lamps were made; --resume makes them");
 
     const bool stopped = stages.stopped();
     // Without light there is no error.

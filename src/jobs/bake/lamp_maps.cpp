@@ -127,10 +127,8 @@ std::optional<LampLights> keep_lamps_apart(Solver& solver, Stages& stages)
     std::optional<LinkRadiosity::LampsLight> light;
     if (!stages.stopped())
         light = links->light_of_lamps([&](double fraction) { return stages.progress(fraction); });
-    if (!light) {
-        stages.tell("the bake was stopped before the maps of lamps were made; --resume makes them");
+    if (!light)
         return std::nullopt;
-    }
     return LampLights{links->lamps()->all, std::move(light->lamps)};
 }
 

@@ -27,7 +27,7 @@ struct LampLights {
 void set_per_lamp(BakeOptions& options, bool wanted, std::vector<LampGroup> groups);
 
 /// The light of lamps that a solver kept apart, in a stage of its own; empty if it did not, or the
-/// bake was stopped, which is told.
+/// caller stopped.
 std::optional<LampLights> keep_lamps_apart(Solver& solver, Stages& stages);
 
 /// Finished maps of the light [N] [lx] and, as layers, of its lamps, which add up to it: none is

@@ -120,7 +120,27 @@ void check_layers(const RenderOptions& options)
         refuse("--eye-shots");
     if (!options.bake.dump.empty())
         refuse("--dump");
+    if (options.bake.sky_directions != BakeOptions{}.sky_directions)
+        refuse("--sky-directions");
 }
+
+namespace {
+
+/// Throws Error{input} if the images of lamps take more than half of the memory. host: limit
+/// [bytes], 0: unknown.
+void check_images(std::size_t lamps, const RenderOptions& options, std::uint64_t host)
+{
+    constexpr std::uint64_t kPixelBytes = 4 * sizeof(float), kShare = 2;
+    const std::uint64_t bytes = std::uint64_t(options.width) * std::uint64_t(options.height) *
+                                kPixelBytes * (lamps + 1);  // and their sum
+    if (host > 0 && bytes > host / kShare)
+        throw Error(ErrorKind::input, "--width " + std::to_string(options.width),
+                    fmt::format("needs {} MiB for the images of {} lamps; make it smaller, or join "
+                                "lamps by --group",
+                                bytes >> 20, lamps));
+}
+
+}  // namespace
 
 Report render_layers(Scene scene, const std::string& path, RenderOptions options, Stages& stages)
 {
@@ -130,12 +150,15 @@ Report render_layers(Scene scene, const std::string& path, RenderOptions options
     const Setting setting(std::move(scene), &device, options.bake, stages);
     const SolveScene& prepared = setting.prepared;
     const View view = view_for(prepared.scene, prepared.rays, options);
+    check_size(device, options);
     options.bake.solver.max_bytes = bytes_for_links(prepared, options.bake, limits);
     const std::unique_ptr<Solution> solution = solve_light(&device, setting, options.bake, stages);
     const SolverState solved = solution->solver->state();
     const std::optional<LampLights> lamps = keep_lamps_apart(*solution->solver, stages);
     if (!lamps)
         throw Error(ErrorKind::stopped, path, "was stopped before the light of lamps was known");
+
+    check_images(lamps->lamps.size(), options, limits.host);
 
     stages.begin("finishing");
     const FinishedMaps maps = lamp_maps(prepared, solution->irradiance, lamps->light);

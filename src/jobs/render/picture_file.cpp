@@ -1,6 +1,10 @@
 #include "jobs/render/picture_file.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "base/images/image_files.h"
+#include "methods/glossy/eye_image.h"
 #include "results/files/folder.h"
 #include "results/preview/view.h"
 #include "results/record/origin.h"
@@ -26,6 +30,18 @@ View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
         options.height = picture_height(options.width, view.aspect, kLargestPicture);
     view.aspect = float(options.width) / float(options.height);  // pixels are square
     return view;
+}
+
+void check_size(const gpu::Device& device, const RenderOptions& options)
+{
+    const std::uint64_t pixels = std::uint64_t(options.width) * std::uint64_t(options.height);
+    const std::uint64_t most =
+        std::min(EyeImage::most_points(device),
+                 std::uint64_t(std::numeric_limits<std::uint32_t>::max()) / options.sets);
+    if (pixels > most)
+        throw Error(ErrorKind::input, "--width " + std::to_string(options.width),
+                    "makes an image of " + std::to_string(pixels) + " pixels, more than the " +
+                        std::to_string(most) + " that this device can hold with these --places");
 }
 
 Image unmultiplied(Image image)

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "gpu/device.h"
 #include "jobs/render/render.h"
 #include "rays/cast/ray_scene.h"
 #include "scene/values/view.h"
@@ -14,6 +15,10 @@ bool is_exr(const std::string& path);
 
 /// The requested view, with the aspect of the image. Sets options.height.
 View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options);
+
+/// Throws Error{input} if an image of this size is too large for the device or for the numbers of
+/// its points.
+void check_size(const gpu::Device& device, const RenderOptions& options);
 
 /// Divides colours by alpha, as for PNG.
 Image unmultiplied(Image image);

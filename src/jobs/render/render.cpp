@@ -53,18 +53,6 @@ void check(const std::string& path, const RenderOptions& options)
     const OutputFile can_be_written(path);
 }
 
-void check_size(const gpu::Device& device, const RenderOptions& options)
-{
-    const std::uint64_t pixels = std::uint64_t(options.width) * std::uint64_t(options.height);
-    const std::uint64_t most =
-        std::min(EyeImage::most_points(device),
-                 std::uint64_t(std::numeric_limits<std::uint32_t>::max()) / options.sets);
-    if (pixels > most)
-        throw Error(ErrorKind::input, "--width " + std::to_string(options.width),
-                    "makes an image of " + std::to_string(pixels) + " pixels, more than the " +
-                        std::to_string(most) + " that this device can hold with these --places");
-}
-
 /// Light of the lobes at the points seen [G] [cd/m²], by shooters. Every set of points receives
 /// from some, even if the caller stops.
 std::vector<glm::vec3> shoot_for(GlossyIllumination& solver, const Seen& seen,

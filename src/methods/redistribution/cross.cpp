@@ -78,7 +78,7 @@ CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world
       receive_(device, std::uint32_t(solver.shots().views().projection())),
       settle_(device),
       lamps_(device, world, lumels, solver, movers, options.lamp_points, most_bytes),
-      sides_(device, world, lumels, solver, open, options.level, kBackSide, kBackLevels),
+      sides_(device, world, lumels, solver, open, kBackSide, kBackLevels),
       lumel_of_(device, view(lumels_by_side(lumels))),
       near_first_(device, lumels.lumels.size() + 1),
       near_column_(device, 1),

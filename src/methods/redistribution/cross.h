@@ -15,11 +15,10 @@
 namespace lumel {
 
 struct CrossOptions {
-    /// Points of a lamp that shoot past movable objects, at most. Where the solution shoots from
-    /// more, shadows of these objects are coarser than in a solution from scratch.
+    /// Points of a lamp that shoot past movable objects, at least 1: the coarsest level with as
+    /// many is used, or the solution's own. Where the solution shoots from more, shadows of these
+    /// objects are coarser than in a solution from scratch.
     std::uint32_t lamp_points = 64;
-    /// Level of movable patches: at 1 blocks of 2 × 2 lumels instead of 4 × 4, four times as many.
-    std::uint32_t level = 0;
 };
 
 /// Redistributes light shot among static lumels, batch by batch.

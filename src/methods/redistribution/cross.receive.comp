@@ -1,7 +1,6 @@
 #version 460
 #include "methods/redistribution/cross.shared.h"
 #include "atlas/packing/lumel.shared.h"
-#include "base/core/hash.glsl"
 #include "solve/shooting/radiosity.glsl"
 #include "raster/world/lumel.glsl"
 #include "raster/world/receiving_point.glsl"
@@ -42,8 +41,7 @@ const float kTouching = 0.01;
 // Minimum distance for angles [m].
 const float kMinDistance = 1e-6;
 
-// Receiving points for V_ij. With one, the distance from a solution from scratch is a seventh
-// larger where a lamp hides half of a lumel.
+// Receiving points for V_ij: a lamp near a surface hides parts of its lumels.
 const uint kVisibilityPoints = 4u;
 
 // Light in that direction, interpolated between two levels.
@@ -148,7 +146,8 @@ void main()
     const Lumel lumel = lumels[i];
     if ((lumel.flags & (kLumelBuried | kLumelMoving)) != 0u)
         return;
-    // From one point, so that the light occluded by adjacent patches is consistent.
+    // Rays from one point, so that the light occluded by adjacent patches is consistent; V is from
+    // several.
     const Receiver r =
         receiver_at(LumelPoint(lumel.position, lumel.normal, lumel.normal, 0u), lumel, i);
     vec3 sum = vec3(0.0);

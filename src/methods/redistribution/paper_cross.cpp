@@ -73,7 +73,7 @@ PaperCross::PaperCross(const gpu::Device& device, const Scene& scene, World& wor
       reset_(device),
       gather_(device),
       receive_(device, std::uint32_t(solver.shots().views().projection())),
-      sides_(device, world, lumels, solver, open, 0, kPaperBackSide, 1),
+      sides_(device, world, lumels, solver, open, kPaperBackSide, 1),
       front_views_(device, world, kPaperFrontSide, solver.shots().views().layout().near,
                    solver.shots().batch()),
       lumel_of_(device, view(nearest_lumels_by_side(lumels))),

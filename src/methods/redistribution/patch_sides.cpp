@@ -15,7 +15,7 @@ std::uint32_t pixels_of_levels(std::uint32_t side, std::uint32_t levels)
 
 /// Fronts of all movable patches, and backs of those of open meshes.
 std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lumels,
-                                        const std::vector<char>& open, std::uint32_t level)
+                                        const std::vector<char>& open)
 {
     std::vector<ChosenPatch> list;
     for (const std::uint32_t send : {kSendCrossing, kSendBackSide})
@@ -24,8 +24,8 @@ std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lum
             const bool is_open = open[lumels.lumels[chart.first_lumel].instance] != 0;
             if (!chart.moving || (send == kSendBackSide && !is_open))
                 continue;
-            for (std::uint32_t index = 0; index < patches_of(chart, level); ++index)
-                list.push_back({c, level, index, send});
+            for (std::uint32_t index = 0; index < patches_of(chart, 0); ++index)
+                list.push_back({c, 0, index, send});
         }
     return list;
 }
@@ -34,7 +34,7 @@ std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lum
 
 PatchSides::PatchSides(const gpu::Device& device, World& world, const Lumels& lumels,
                        ProgressiveRadiosity& solver, const std::vector<char>& open,
-                       std::uint32_t level, std::uint32_t back_side, std::uint32_t levels)
+                       std::uint32_t back_side, std::uint32_t levels)
     : world_(&world),
       solver_(&solver),
       back_eyes_kernel_(device),
@@ -43,7 +43,7 @@ PatchSides::PatchSides(const gpu::Device& device, World& world, const Lumels& lu
       levels_(levels),
       views_(device, world, back_side, solver.shots().views().layout().near, batch_),
       back_layout_{back_side, pixels_of_levels(back_side, levels)},
-      patches_(moving_patches(solver.shots().layout(), lumels, open, level)),
+      patches_(moving_patches(solver.shots().layout(), lumels, open)),
       list_(device, view(in_whole_batches(patches_, batch_))),
       back_eyes_(device, batch_),
       back_(device, std::size_t(batch_) * back_layout_.per_hemicube)

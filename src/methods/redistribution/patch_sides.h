@@ -13,11 +13,11 @@ namespace lumel {
 class PatchSides {
 public:
     /// open [instances]: 1 for meshes whose backs without lumels are visible from outside.
-    /// level: of all patches. back_side: of the front face of a back hemicube [pixels], divisible
+    /// back_side: of the front face of a back hemicube [pixels], divisible
     /// by 2^levels. The world and the solver must outlive this.
     PatchSides(const gpu::Device& device, World& world, const Lumels& lumels,
-               ProgressiveRadiosity& solver, const std::vector<char>& open, std::uint32_t level,
-               std::uint32_t back_side, std::uint32_t levels);
+               ProgressiveRadiosity& solver, const std::vector<char>& open, std::uint32_t back_side,
+               std::uint32_t levels);
 
     std::uint32_t batch() const { return batch_; }        ///< K
     std::size_t size() const { return patches_.size(); }  ///< |M|

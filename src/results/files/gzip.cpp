@@ -1,5 +1,8 @@
 #include "results/files/gzip.h"
 
+#include <algorithm>
+#include <limits>
+
 #include <zlib.h>
 
 #include "base/core/error.h"
@@ -22,11 +25,21 @@ std::vector<std::uint8_t> gzip(std::span<const std::uint8_t> bytes)
         fail();
     std::vector<std::uint8_t> packed(deflateBound(&stream, uLong(bytes.size())));
     stream.next_in = const_cast<Bytef*>(bytes.data());  // zlib only reads it
-    stream.avail_in = uInt(bytes.size());
     stream.next_out = packed.data();
-    stream.avail_out = uInt(packed.size());
-    const int state = deflate(&stream, Z_FINISH);
-    packed.resize(stream.total_out);
+    // zlib counts what it is given at once in 32 bits.
+    constexpr std::size_t kMostAtOnce = std::numeric_limits<uInt>::max();
+    std::size_t in_left = bytes.size(), out_left = packed.size();
+    int state = Z_OK;
+    while (state == Z_OK) {
+        const auto in = uInt(std::min(in_left, kMostAtOnce)),
+                   out = uInt(std::min(out_left, kMostAtOnce));
+        stream.avail_in = in;
+        stream.avail_out = out;
+        state = deflate(&stream, in == in_left ? Z_FINISH : Z_NO_FLUSH);
+        in_left -= in - stream.avail_in;
+        out_left -= out - stream.avail_out;
+    }
+    packed.resize(packed.size() - out_left);
     deflateEnd(&stream);
     if (state != Z_STREAM_END)
         fail();
