@@ -161,9 +161,9 @@ TEST(RenderLayers, RefuseWhatTheyCannotShow)
                             {option, "cannot be used with --layers"});
     expect_one_sentence(render(scene, picture, {"--layers", "--sky-directions", "7"}), 2,
                         {"--sky-directions", "cannot be used with --layers"});
-    expect_one_sentence(
-        render(scene, picture, {"--layers", "--width", "16384", "--places", "65536"}), 2,
-        {"--width 16384", "pixels"});
+    expect_one_sentence(run_lumel({"render", scene, picture, "--layers", "--size", "64", "--width",
+                                   "16384", "--places", "256", "-q"}),
+                        2, {"--width 16384", "pixels"});
     expect_one_sentence(render(scene, picture, {"--layers", "--scheme", "paper"}), 2,
                         {"--scheme", "is not read with --layers"});
     expect_one_sentence(render(scene, picture, {"--group", "kitchen=lamp*"}), 2,

@@ -272,7 +272,7 @@ TEST(Lamps, ThatCannotBeKeptApartAreRefused)
     expect_words(test::input_error_of([&] {
                      const LinkRadiosity solver(night, LinksOptions{.per_lamp = true}, {});
                  }),
-                 {"--per-lamp", "none"});
+                 {"cornell-box", "no lamp"});
 }
 
 }  // namespace
