@@ -192,8 +192,7 @@ INSTANTIATE_TEST_SUITE_P(Materials, PapersClosedRoom,
 
 // The same in a picture: the accumulated image of every lumel and the light that arrives. With
 // 6,144 shooters the two losses vary between seeds by 0.7 and 0.5 %, so that 2 × the one - the
-// other varies by 1.5 %. Four times as many halve that. What is left is the term of second order in
-// the side, -1.1 % (24,576 shooters), which neither batches of one nor of four shooters change.
+// other varies by 1.5 %; with four times as many it is -2.6 %, which is not explained.
 TEST(PapersPicture, HasTheLightThatPathsFindButWhatItsShootersLose)
 {
     constexpr std::uint64_t kShots = 24'576;
