@@ -1,4 +1,4 @@
-// How a lamp's map is multiplied when the lamp is dimmed or gets another colour.
+// The factor of a lamp's map for a dimming factor and a colour.
 
 const luxShares = [0.2126, 0.7152, 0.0722];
 const leastChannel = 0.01; // of a lamp's colour: below, its map has too little light to be recoloured

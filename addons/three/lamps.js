@@ -35,9 +35,9 @@ function materialsByPage(scene) {
 }
 
 // One sum for each page of the lightmap, in place of the maps that the materials had.
-function bindSums(renderer, scene, { list }, bytes) {
+function bindSums(renderer, materialsOf, { list }, bytes) {
     const pages = list[0].brightest.length, each = bytes.length / pages;
-    return materialsByPage(scene).map((materials, page) => {
+    return materialsOf.map((materials, page) => {
         const [{ lightMap, lightMapIntensity }] = materials;
         const lamps = list.map(({ brightest }) => ({ brightest: brightest[page] }));
         const sum = new LampSum(renderer, lightMap, lightMapIntensity, lamps,
@@ -65,7 +65,7 @@ function refuse(name, names, reason) {
     throw new Error(`There is no lamp "${name}"; ` + (names.length > 0 ? `the scene has ${quoted(names)}.` : reason));
 }
 
-// Of a scene whose lamps cannot be dimmed.
+// The result for a scene without lamps that can be dimmed.
 function without(reason) {
     const setLamp = (name) => refuse(name, [], reason);
     return { lamps: [], setLamp, setLamps: (states) => entriesOf(states).forEach(([name]) => setLamp(name)) };
@@ -85,12 +85,12 @@ export async function lampsOf(renderer, gltf) {
     if (!canAdd(renderer)) return without('this browser cannot draw into textures of floating-point numbers.');
     const bytes = await mapsOf(gltf, told, told.list[0].brightest.length);
     if (!bytes) return without('a tool has dropped the maps of the lamps from the file.');
-    const bound = materialsByPage(gltf.scene);
-    if (bound.length === 0) return without('no material has the lightmap; load the scene with LightmapPlugin.');
-    const fits = bound.every(([{ lightMap: { image } }]) => image &&
+    const materialsOf = materialsByPage(gltf.scene);
+    if (materialsOf.length === 0) return without('no material has the lightmap; load the scene with LightmapPlugin.');
+    const fits = materialsOf.every(([{ lightMap: { image } }]) => image &&
         Math.ceil(image.width / 2) === told.width && Math.ceil(image.height / 2) === told.height);
     if (!fits) return without('its lamps are in use already, or a tool has changed the size of its lightmap.');
-    const sums = bindSums(renderer, gltf.scene, told, bytes);
+    const sums = bindSums(renderer, materialsOf, told, bytes);
     const surfaces = lampSurfaces(gltf.scene, told.list);
     const names = told.list.map(({ name }) => name);
     const states = new Map(names.map((name) => [name, { factor: 1, colour: null }]));

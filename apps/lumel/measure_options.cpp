@@ -52,13 +52,10 @@ void add_places(Command& command, MeasureOptions& options)
           .default_value = "1/20 of its longer side",
           .check = positive(),
           .needs = "--plane"},
-         {.names = "--bounds",
-          .type = "X0,Z0,X1,Z1",
-          .help = "Corners of the plane in metres",
-          .target = [&options](
-                        const std::string& text) { options.bounds = corners_of("--bounds", text); },
-          .default_value = "the scene's",
-          .needs = "--plane"},
+         rectangle(options.bounds, {.names = "--bounds",
+                                    .help = "Corners of the plane in metres",
+                                    .default_value = "the scene's",
+                                    .needs = "--plane"}),
          {"--samples", "N", "Hemisphere rays per point; as many again go to light sources",
           &options.samples, text_of(options.samples), whole(kMinSamples, kMaxSamples)}});
 }

@@ -60,13 +60,17 @@ std::vector<double> coordinates_of(const std::string& text)
     return numbers;
 }
 
-std::array<double, 4> corners_of(const std::string& option, const std::string& text)
+Option rectangle(std::optional<std::array<double, 4>>& target, Option option)
 {
-    const std::vector<double> n = coordinates_of(text);
-    if (n.size() != 4 || !(n[0] < n[2]) || !(n[1] < n[3]))
-        refuse_value(fmt::format("{}: '{}' is not of the form X0,Z0,X1,Z1 with X0 < X1 and Z0 < Z1",
-                                 option, text));
-    return {n[0], n[1], n[2], n[3]};
+    option.type = "X0,Z0,X1,Z1";
+    option.target = [&target, names = option.names](const std::string& text) {
+        const std::vector<double> n = coordinates_of(text);
+        if (n.size() != 4 || !(n[0] < n[2]) || !(n[1] < n[3]))
+            refuse_value(fmt::format(
+                "{}: '{}' is not of the form X0,Z0,X1,Z1 with X0 < X1 and Z0 < Z1", names, text));
+        target = {n[0], n[1], n[2], n[3]};
+    };
+    return option;
 }
 
 Check whole(std::int64_t low, std::int64_t high)

@@ -37,8 +37,9 @@ inline constexpr double kFarthest = 1e6;
 /// The numbers of "X,Y,Z"; empty if one is none, or is beyond kFarthest.
 std::vector<double> coordinates_of(const std::string& text);
 
-/// X0, Z0, X1 and Z1 of a rectangle. option: that has the value. Throws Error{input}.
-std::array<double, 4> corners_of(const std::string& option, const std::string& text);
+/// The option with what it needs to take a rectangle: type and target. target: X0, Z0, X1 and Z1;
+/// must outlive the command.
+Option rectangle(std::optional<std::array<double, 4>>& target, Option option);
 
 /// The bytes of "512M", "2G" or "1.5G"; nothing for what is no such size.
 std::optional<std::uint64_t> bytes_of(const std::string& text);

@@ -7,7 +7,7 @@
 
 namespace lumel::bench {
 
-/// Pictures of one size in rows, the first of which has one.
+/// Pictures of one size in rows, the first not empty; shorter rows end in black.
 Image contact_sheet(const std::vector<std::vector<Image>>& rows);
 
 }  // namespace lumel::bench

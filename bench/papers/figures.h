@@ -137,7 +137,7 @@ struct DynamicSettings {
 /// time, hemicubes and pictures of correcting a solution when something moves.
 void follow_moves(const DynamicSettings& settings, Report& report);
 
-/// What of the distance between `cross` and a solution from scratch comes from where.
+/// Causes of the distance between `cross` and a solution from scratch, with the share of each.
 void share_out_cross(const DynamicSettings& settings, Report& report);
 
 struct DriftSettings {

@@ -5,15 +5,14 @@
 // Exits with 0, or with 1 and a sentence.
 
 import { readFile } from 'node:fs/promises';
-import { pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
+import { probePage } from './probed_page.mjs';
 
 const { values: options, positionals: [page] } = parseArgs({
     allowPositionals: true,
     options: { 'browser-module': { type: 'string' }, steps: { type: 'string' }, hash: { type: 'string', default: '' },
         points: { type: 'string', multiple: true, default: [] } },
 });
-const { visit } = await import(pathToFileURL(options['browser-module']));
 
 // Runs in the page, before anything else of it.
 async function probe(points, steps) {
@@ -100,16 +99,4 @@ async function probe(points, steps) {
 
 const points = options.points.map((point) => point.split(',').map(Number));
 const steps = JSON.parse(await readFile(options.steps, 'utf8'));
-const asked = JSON.stringify([points, steps]).replaceAll('<', '\\u003c');
-const html = (await readFile(page, 'utf8')).replace('<style>', () =>
-    `<script>(${probe})(...${asked})</script><style>`);
-try {
-    const { body } = await visit('chromium', options.hash, async (path) => {
-        if (path !== '/') throw new Error(`the page wants ${path}`);
-        return { type: 'text/html; charset=utf-8', content: html };
-    }, '/found');
-    console.log(body.toString());
-} catch (error) {
-    console.error(`probe_lamps.mjs: ${error.message}`);
-    process.exitCode = 1;
-}
+await probePage(page, options['browser-module'], options.hash, probe, points, steps);

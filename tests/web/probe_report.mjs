@@ -3,15 +3,13 @@
 // points: of the scene's canvas, as parts of its width and height.
 // Exits with 0, or with 1 and a sentence.
 
-import { readFile } from 'node:fs/promises';
-import { pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
+import { probePage } from './probed_page.mjs';
 
 const { values: options, positionals: [page] } = parseArgs({
     allowPositionals: true,
     options: { 'browser-module': { type: 'string' }, points: { type: 'string', multiple: true, default: [] } },
 });
-const { visit } = await import(pathToFileURL(options['browser-module']));
 
 // Runs in the page, before anything else of it.
 async function probe(points) {
@@ -72,15 +70,4 @@ async function probe(points) {
 }
 
 const points = options.points.map((point) => point.split(',').map(Number));
-const html = (await readFile(page, 'utf8')).replace('<style>',
-    () => `<script>(${probe})(${JSON.stringify(points)})</script><style>`);
-try {
-    const { body } = await visit('chromium', '', async (path) => {
-        if (path !== '/') throw new Error(`the page wants ${path}`);
-        return { type: 'text/html; charset=utf-8', content: html };
-    }, '/found');
-    console.log(body.toString());
-} catch (error) {
-    console.error(`probe_report.mjs: ${error.message}`);
-    process.exitCode = 1;
-}
+await probePage(page, options['browser-module'], '', probe, points);

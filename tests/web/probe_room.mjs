@@ -3,15 +3,13 @@
 //     node probe_room.mjs page.html --browser-module FILE [--hash TEXT]
 // Exits with 0, or with 1 and a sentence.
 
-import { readFile } from 'node:fs/promises';
-import { pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
+import { probePage } from './probed_page.mjs';
 
 const { values: options, positionals: [page] } = parseArgs({
     allowPositionals: true,
     options: { 'browser-module': { type: 'string' }, hash: { type: 'string', default: '' } },
 });
-const { visit } = await import(pathToFileURL(options['browser-module']));
 
 // Runs in the page, before anything else of it.
 async function probe() {
@@ -39,14 +37,4 @@ async function probe() {
     }) });
 }
 
-const html = (await readFile(page, 'utf8')).replace('<style>', () => `<script>(${probe})()</script><style>`);
-try {
-    const { body } = await visit('chromium', options.hash, async (path) => {
-        if (path !== '/') throw new Error(`the page wants ${path}`);
-        return { type: 'text/html; charset=utf-8', content: html };
-    }, '/found');
-    console.log(body.toString());
-} catch (error) {
-    console.error(`probe_room.mjs: ${error.message}`);
-    process.exitCode = 1;
-}
+await probePage(page, options['browser-module'], options.hash, probe);

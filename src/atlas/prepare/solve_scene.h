@@ -41,6 +41,9 @@ struct SolveScene {
 
     /// Diagonal of the scene's bounding box [m].
     float extent() const { return glm::distance(rays.low(), rays.high()); }
+    /// Corners of its bounding box in the world of its file [m].
+    glm::dvec3 low_in_file() const { return glm::dvec3(rays.low()) + scene.origin; }
+    glm::dvec3 high_in_file() const { return glm::dvec3(rays.high()) + scene.origin; }
 
     Scene scene;
     std::vector<std::uint32_t> movers;  ///< instances, ascending

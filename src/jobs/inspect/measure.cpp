@@ -25,8 +25,7 @@ constexpr double kPercent = 100.0;
 /// The work plane, over the whole scene unless bounds are given.
 WorkPlane plane_of(const MeasureOptions& options, const SolveScene& prepared)
 {
-    const glm::dvec3 low = glm::dvec3(prepared.rays.low()) + prepared.scene.origin;
-    const glm::dvec3 high = glm::dvec3(prepared.rays.high()) + prepared.scene.origin;
+    const glm::dvec3 low = prepared.low_in_file(), high = prepared.high_in_file();
     WorkPlane plane{.height = *options.height, .low = {low.x, low.z}, .high = {high.x, high.z}};
     if (const auto& bounds = options.bounds) {
         plane.low = {(*bounds)[0], (*bounds)[1]};

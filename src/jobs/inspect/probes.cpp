@@ -24,9 +24,7 @@ ProbeGrid grid_of(const ProbesOptions& options, const SolveScene& prepared)
     if (const auto& b = options.bounds)
         return probe_grid({(*b)[0], (*b)[1], (*b)[2]}, {(*b)[3], (*b)[4], (*b)[5]},
                           options.spacing);
-    const glm::dvec3 origin = prepared.scene.origin;
-    return probe_grid(glm::dvec3(prepared.rays.low()) + origin,
-                      glm::dvec3(prepared.rays.high()) + origin, options.spacing);
+    return probe_grid(prepared.low_in_file(), prepared.high_in_file(), options.spacing);
 }
 
 void find_places(const std::string& scene, const ProbesOptions& options, const SolveScene& prepared,

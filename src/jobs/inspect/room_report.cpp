@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Illuminance from here on is told in whole lux, below in three digits.
+/// Illuminance from here on is rounded to whole lux, below to three digits.
 constexpr double kWholeLux = 100.0;
 constexpr double kHundredths = 100.0;
 
@@ -160,8 +160,7 @@ Json measured(const AreaPoints& area, const AreaLimits& task, double height, con
 
 FloorArea bounds_of(const SolveScene& scene)
 {
-    const glm::dvec3 low = glm::dvec3(scene.rays.low()) + scene.scene.origin;
-    const glm::dvec3 high = glm::dvec3(scene.rays.high()) + scene.scene.origin;
+    const glm::dvec3 low = scene.low_in_file(), high = scene.high_in_file();
     return {{low.x, low.z}, {high.x, high.z}};
 }
 
@@ -176,13 +175,13 @@ bool has_daylight(const SolveScene& scene)
         });
 }
 
-/// As the page tells it, and judges by it.
-double told_lux(double lux)
+/// Rounded as on the page, where verdicts are of rounded values.
+double rounded_lux(double lux)
 {
     return lux >= kWholeLux ? std::round(lux) : std::stod(fmt::format("{:.3g}", lux));
 }
 
-double told_uniformity(double uniformity)
+double rounded_uniformity(double uniformity)
 {
     return std::round(kHundredths * uniformity) / kHundredths;
 }
@@ -199,10 +198,10 @@ std::string line_of(const Json& area, double maintenance)
             readings.back().lux += lux.get<double>();
     }
     const PlaneFigures found = figures_of(readings);
-    const double lux = told_lux(maintenance * found.mean),
-                 wanted = told_lux(area["illuminance"].get<double>()),
-                 uniformity = told_uniformity(found.uniformity),
-                 even = told_uniformity(area["uniformity"].get<double>());
+    const double lux = rounded_lux(maintenance * found.mean),
+                 wanted = rounded_lux(area["illuminance"].get<double>()),
+                 uniformity = rounded_uniformity(found.uniformity),
+                 even = rounded_uniformity(area["uniformity"].get<double>());
     const auto verdict = [](bool is_met) { return is_met ? "met" : "not met"; };
     return fmt::format(
         "{}: {} points, maintained {:g} lx of {:g} ({}), uniformity {:.2f} of {:.2f} ({})\n", name,
@@ -222,8 +221,7 @@ Json room_data(const std::string& folder, const RoomOptions& options)
     if (options.task)
         task = area_of(*options.task);
     const std::vector<AreaPoints> areas = points_in_areas(room, task ? &*task : nullptr);
-    const double floor = double(scene.rays.low().y) + scene.scene.origin.y;
-    const double height = options.height.value_or(floor + use.height);
+    const double height = options.height.value_or(scene.low_in_file().y + use.height);
     const AreaLimits limits{options.illuminance.value_or(use.illuminance),
                             options.uniformity.value_or(use.uniformity)};
     const RoomMeter meter(folder, bake, options.samples);
@@ -247,7 +245,7 @@ std::string room_text(const Json& room)
     for (const Json& area : room["areas"])
         text += line_of(area, room["maintenance"].get<double>());
     if (room["has_daylight"].get<bool>())
-        text += "the light of sky and sun is counted as that of lamps is\n";
+        text += "the light of sky and sun is counted like that of lamps\n";
     return text;
 }
 

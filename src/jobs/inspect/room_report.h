@@ -27,7 +27,7 @@ struct RoomOptions {
 /// a task area without points in the open air, and a lamps.json without all lamps of the scene.
 Json room_data(const std::string& folder, const RoomOptions& options);
 
-/// What room_data() found with all lamps as baked, a line for each area.
+/// Results of room_data() with all lamps as baked, one line per area.
 std::string room_text(const Json& room);
 
 }  // namespace lumel

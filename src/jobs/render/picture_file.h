@@ -1,5 +1,5 @@
 #pragma once
-// What images of all kinds share: their view and their file.
+// View, size and file of an image.
 
 #include <optional>
 #include <string>

@@ -18,8 +18,8 @@
 //
 // `Scheme::paper` with K = 1, SampleRule::centre and Projection::hemisphere is the iteration of
 // [BJ04], except for the test of visibility, which compares planes and depths (sees.glsl) where the
-// paper compares depths within 0.05: T* acts on the running average. The iteration of [BSS05],
-// whose T* acts on the last value, is GlossyIllumination's.
+// paper compares depths within 0.05: T* acts on the running average. In [BSS05] it acts on the last
+// value; that iteration is in GlossyIllumination.
 //
 // Scheme::phased differs from [BJ04]:
 // - Points move over receivers and shooters, except with SampleRule::centre.

@@ -7,7 +7,7 @@
 
 namespace lumel {
 
-/// The bytes as gzip (RFC 1952). At most 4 GiB.
+/// The bytes as gzip (RFC 1952).
 std::vector<std::uint8_t> gzip(std::span<const std::uint8_t> bytes);
 
 }  // namespace lumel

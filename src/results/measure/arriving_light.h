@@ -14,7 +14,7 @@
 
 namespace lumel {
 
-/// What a ray brings, without light of sources.
+/// Light along a ray, without that of sources.
 struct MetLight {
     glm::vec3 light{0.0f};                   ///< π L
     std::uint32_t lumel = HitLumels::kNone;  ///< that reflects it

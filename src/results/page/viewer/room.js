@@ -10,11 +10,11 @@ const letterWidth = 0.62; // of a digit, relative to its size
 const widestNumber = 0.85; // of a number, relative to its cell
 const brightPlace = 0.6; // on the scale: numbers are black from here on
 const notComputed = 'Not computed: glare (UGR), colour rendering, cylindrical illuminance, walls and ceiling.';
-const daylight = ' The light of sky and sun is counted as that of lamps is.';
+const daylight = ' The light of sky and sun is counted like that of lamps.';
 
-// What is told is what is judged.
-const toldLux = (lux) => lux >= 100 ? Math.round(lux) : Number(lux.toPrecision(3));
-const toldUniformity = (uniformity) => Math.round(100 * uniformity) / 100;
+// Verdicts are of rounded values, as in the table.
+const roundedLux = (lux) => lux >= 100 ? Math.round(lux) : Number(lux.toPrecision(3));
+const roundedUniformity = (uniformity) => Math.round(100 * uniformity) / 100;
 const luxText = (lux) => `${lux} lx`;
 const uniformityText = (uniformity) => uniformity.toFixed(2);
 
@@ -28,12 +28,12 @@ function factorOf(lamp, state) {
     return own > 0 ? luxOf(gainOf(lamp, state).map((gain, channel) => gain * lamp.color[channel])) / own : 0;
 }
 
-// Mean and uniformity of values of illuminance, as they are told; null: there are none.
+// Rounded mean and uniformity of the illuminance at points; null: there are no points.
 function figuresOf(light) {
     if (light.length === 0) return null;
     const mean = light.reduce((sum, value) => sum + value, 0) / light.length;
     const least = light.reduce((low, value) => Math.min(low, value), Infinity);
-    return { lux: toldLux(mean), uniformity: toldUniformity(mean > 0 ? least / mean : 0) };
+    return { lux: roundedLux(mean), uniformity: roundedUniformity(mean > 0 ? least / mean : 0) };
 }
 
 function headerOf({ report, room }) {
@@ -100,8 +100,8 @@ export class Room {
             Object.assign(made.dataset, { area: area.name, what, wanted, found: is, met: is >= wanted });
             return made;
         };
-        return [row('maintained illuminance', toldLux(area.illuminance), found?.lux, luxText),
-            row('uniformity', toldUniformity(area.uniformity), found?.uniformity, uniformityText)];
+        return [row('maintained illuminance', roundedLux(area.illuminance), found?.lux, luxText),
+            row('uniformity', roundedUniformity(area.uniformity), found?.uniformity, uniformityText)];
     }
 
     showScenes(states, presets) {
@@ -112,7 +112,7 @@ export class Room {
                 const { lux, uniformity } = figuresOf(this.light(task, lit));
                 return element('tr', {}, named(name), element('td', {}, luxText(lux)),
                     element('td', {}, uniformityText(uniformity)),
-                    verdict(lux >= toldLux(task.illuminance) && uniformity >= toldUniformity(task.uniformity)));
+                    verdict(lux >= roundedLux(task.illuminance) && uniformity >= roundedUniformity(task.uniformity)));
             }));
     }
 
@@ -128,7 +128,7 @@ export class Room {
                 const at = { x: metre * (x - x0), y: metre * (z - z0) }, place = this.scale.placeOf(light[i]);
                 cells.push(drawn('rect', { x: at.x - width / 2, y: at.y - height / 2, width, height,
                     fill: `rgb(${colourAt(place).join(' ')})` }));
-                const number = String(toldLux(light[i]));
+                const number = String(roundedLux(light[i]));
                 numbers.push(drawn('text', { ...at, 'text-anchor': 'middle', 'dominant-baseline': 'central',
                     'font-size': Math.min(widestNumber * width / (letterWidth * number.length), 0.4 * height),
                     fill: place > brightPlace ? '#000' : '#fff' }, number));
