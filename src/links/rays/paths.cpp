@@ -1,5 +1,6 @@
 // LinkTracer's paths: rays that need more than their first hit, one reflection at a time.
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <span>
@@ -21,6 +22,13 @@ constexpr float kTooNear = 0.25f;
 constexpr int kMaxReflections = 8;
 /// Height of visibility rays to cells above the surface, in sides of the lumel.
 constexpr float kAboveHit = 0.05f;
+
+/// First dimension pair of a reflection, and in it that of the Russian roulette.
+std::uint32_t pair_of(int reflections)
+{
+    return kFirstReflection + std::uint32_t(reflections) * kPerReflection;
+}
+constexpr std::uint32_t kRoulettePair = 2;
 
 }  // namespace
 
@@ -132,6 +140,17 @@ std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, const CellPoint
                        point.position + ray_offset * point.normal, 0.0f, seed);
 }
 
+/// 1 / probability of going on, or 0: Russian roulette by the albedo. The first reflection always
+/// goes on, as most of a path's light is from there.
+float LinkTracer::survival(const Path& path, const glm::vec3& albedo, int reflections)
+{
+    if (reflections == 0)
+        return 1.0f;
+    const float goes_on = std::max({albedo.r, albedo.g, albedo.b});
+    const float at = path.samples.random(pair_of(reflections) + kRoulettePair).x;
+    return at < goes_on ? 1.0f / goes_on : 0.0f;
+}
+
 /// Ends paths at the sub-lumels that they hit, or reflects them.
 void LinkTracer::end_or_reflect(RayBatch& wave, int reflections) const
 {
@@ -160,7 +179,7 @@ void LinkTracer::end_or_reflect(RayBatch& wave, int reflections) const
             continue;
         }
         path.is_straight = false;
-        path.weight *= albedo;
+        path.weight *= albedo * survival(path, albedo, reflections);
         if (path.weight == glm::vec3(0.0f))
             continue;
         wave.next_rays.push_back(reflect(wave, arrival, reflections, path, wave.looks));
@@ -190,9 +209,6 @@ RaySpan LinkTracer::reflect(const RayBatch& wave, const PathHit& arrival, int re
 {
     const RaySpan& ray = wave.rays[arrival.ray];
     const RayHit& hit = wave.hits[arrival.ray];
-    const auto pair_of = [](int bounce) {
-        return kFirstReflection + std::uint32_t(bounce) * kPerReflection;
-    };
     const std::uint32_t pair = pair_of(reflections);
     const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
     const glm::vec3 origin = ray.origin +

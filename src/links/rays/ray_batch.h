@@ -10,7 +10,7 @@ namespace lumel {
 
 /// Dimension pairs of a ray's random numbers; each reflection uses kPerReflection more.
 inline constexpr std::uint32_t kOriginPair = 0, kPassPair = 2, kFirstReflection = 3,
-                               kPerReflection = 2;
+                               kPerReflection = 3;
 
 /// Hits closer than this many sides can be on a sliver that the lumel's cells do not represent, as
 /// in a gap between two walls: light is looked up in a cell visible from the hit, or not at all.

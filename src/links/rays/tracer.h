@@ -77,6 +77,7 @@ private:
     std::optional<RaySpan> ray_to_cell(PathHit& arrival, const CellPoints& points,
                                        std::uint32_t seed) const;
     void end_or_reflect(RayBatch& wave, int reflections) const;
+    static float survival(const Path& path, const glm::vec3& albedo, int reflections);
     RaySpan reflect(const RayBatch& wave, const PathHit& arrival, int reflections, Path& path,
                     ShadowRays& looks) const;
     void keep(RayBatch& wave, std::size_t first, LinkTable& into) const;

@@ -53,26 +53,18 @@ std::vector<char> unknown_parts(const LinkWork& work, const SubLumels& parts,
 
 ReflectedLight::ReflectedLight(const LinkWork& work, const SubLumels& parts,
                                const LinkNumbers& numbers, const DirectEstimator& direct)
-    : work_(work),
-      parts_(parts),
-      numbers_(numbers),
-      direct_(direct),
-      of_number_(numbers.count(), glm::vec4(0.0f))
+    : direct_(direct),
+      of_number_(numbers.count())
 {
     parallel_for(work.lumels().size(), kSourcesPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            const glm::vec4 light(work.lumels()[i].albedo * direct.mean(i),
-                                  direct.varies(i) ? kVaries : 0.0f);
+            const glm::vec3& albedo = work.lumels()[i].albedo;
+            const OfNumber light = direct.varies(i) ? OfNumber{albedo, direct.place_of_cells(i)}
+                                                    : OfNumber{albedo * direct.mean(i)};
             std::fill(of_number_.begin() + numbers.of_part(parts.first(i)),
                       of_number_.begin() + numbers.of_part(parts.end(i)), light);
         }
     });
-}
-
-glm::vec3 ReflectedLight::of_cell(LinkEnd end) const
-{
-    const std::uint32_t lumel = parts_.lumel(numbers_.part(end.number()));
-    return work_.lumels()[lumel].albedo * direct_.at(lumel, end.cell());
 }
 
 LampsReflected::LampsReflected(const LinkWork& work, const SubLumels& parts,

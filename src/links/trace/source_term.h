@@ -40,20 +40,21 @@ public:
 
     glm::vec3 at(LinkEnd end) const
     {
-        const glm::vec4& light = of_number_[end.number()];
-        return light.w == kVaries ? of_cell(end) : glm::vec3(light);
+        const OfNumber& found = of_number_[end.number()];
+        return found.cells == kEven ? found.light
+                                    : found.light * direct_.light_in(found.cells, end.cell());
     }
 
 private:
-    static constexpr float kVaries = 1.0f;
+    static constexpr std::uint32_t kEven = ~0u;
+    /// What a link needs in one read. Where cells differ, the albedo, and their place.
+    struct OfNumber {
+        glm::vec3 light{0.0f};
+        std::uint32_t cells = kEven;
+    };
 
-    glm::vec3 of_cell(LinkEnd end) const;
-
-    const LinkWork& work_;
-    const SubLumels& parts_;
-    const LinkNumbers& numbers_;
     const DirectEstimator& direct_;
-    std::vector<glm::vec4> of_number_;  ///< [numbers] w: kVaries if cells differ
+    std::vector<OfNumber> of_number_;  ///< [numbers]
 };
 
 /// Direct light of a few lamps that each number of a link's end reflects [lm/m²].
