@@ -18,8 +18,9 @@ namespace {
 constexpr int kGroupCells = 4;
 /// Sweeps before the factor between changes is used.
 constexpr int kFirstSweeps = 2;
-/// Sweeps before groups are made.
-constexpr int kPlainSweeps = 10;
+/// Sweeps before groups are made, and those that would have to follow: the first corrections raise
+/// the change where groups hold cavities of their own light, which takes about as many sweeps.
+constexpr int kPlainSweeps = 10, kWorthGroups = 12;
 /// For the residual, sub-lumels darker than this × the mean count as that bright.
 constexpr double kDarkestCounted = 1e-4;
 constexpr int kSweepLimit = 2000;
@@ -375,7 +376,7 @@ public:
         std::array<double, Lanes> before{};
         for (int sweep = 1; sweep <= kSweepLimit; ++sweep) {
             const Change<Lanes> change = sweep_all();
-            bool is_done = true;
+            bool is_done = true, is_slow = false;
             for (std::size_t lane = 0; lane < Lanes; ++lane) {
                 const double size = change.size(lane);
                 // Changes that shrink by a factor q leave q / (1 - q) of the last as residual. The
@@ -390,6 +391,7 @@ public:
                                            ? size + groups->correct(sent_, next_, lane)
                                            : size * factor / (1.0 - factor);
                 before[lane] = size;
+                is_slow = is_slow || to_come * std::pow(factor, kWorthGroups) > residual;
                 is_done = is_done && (size == 0.0 || (sweep > kFirstSweeps && to_come < residual));
             }
             sent_.swap(next_);
@@ -397,7 +399,7 @@ public:
                 break;
             if (sweep == 1)
                 find_floors();
-            if (sweep == kPlainSweeps)
+            if (sweep >= kPlainSweeps && is_slow && !groups)
                 groups.emplace(solver_, system_);
         }
         return factor;
