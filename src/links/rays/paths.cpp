@@ -29,6 +29,9 @@ std::uint32_t pair_of(int reflections)
     return kFirstReflection + std::uint32_t(reflections) * kPerReflection;
 }
 constexpr std::uint32_t kRoulettePair = 2;
+/// Brighter surfaces end no path: it would save little, and light that is reflected for long would
+/// amplify its noise.
+constexpr float kBrightestAbsorbing = 0.9f;
 
 }  // namespace
 
@@ -141,12 +144,12 @@ std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, const CellPoint
 }
 
 /// 1 / probability of going on, or 0: Russian roulette by the albedo. The first reflection always
-/// goes on, as most of a path's light is from there.
+/// goes on, as most of a path's light is from there, and bright surfaces reflect all.
 float LinkTracer::survival(const Path& path, const glm::vec3& albedo, int reflections)
 {
-    if (reflections == 0)
-        return 1.0f;
     const float goes_on = std::max({albedo.r, albedo.g, albedo.b});
+    if (reflections == 0 || goes_on > kBrightestAbsorbing)
+        return 1.0f;
     const float at = path.samples.random(pair_of(reflections) + kRoulettePair).x;
     return at < goes_on ? 1.0f / goes_on : 0.0f;
 }
