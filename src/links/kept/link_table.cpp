@@ -44,7 +44,8 @@ bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const S
     }
     for (const LinkEnd end : block.ends)
         near += end.number() == LinkNumbers::kNear ? 1 : 0;
-    return near == block.near.size() && fits(block.shares, near, numbers, lamps) &&
+    return near == block.near.size() && near == block.near_light.size() &&
+           fits(block.shares, near, numbers, lamps) &&
            (block.probabilities.empty() || block.probabilities.size() == slots) &&
            std::ranges::find(block.probabilities, 0) == block.probabilities.end() &&
            std::all_of(block.ends.begin(), block.ends.end(), is_known) &&
@@ -71,7 +72,8 @@ std::size_t LinkTable::bytes() const
             bytes += block.rays.size() * sizeof(std::uint16_t) +
                      block.ends.size() * sizeof(LinkEnd) + block.from.size() +
                      block.probabilities.size() * sizeof(std::uint16_t) +
-                     block.near.size() * sizeof(NearLink) + block.shares.size() * sizeof(NearShare);
+                     block.near.size() * (sizeof(NearLink) + sizeof(NearLight)) +
+                     block.shares.size() * sizeof(NearShare);
     return bytes;
 }
 

@@ -2,6 +2,7 @@
 // The table of links: what each ray of the lumels hit. It depends on geometry alone, except for the
 // light of rays that are reflected close to their lumel.
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -71,18 +72,35 @@ private:
 /// light changes within a lumel, but is stored per sub-lumel only.
 inline constexpr float kNearSides = 2.0f;
 
-/// A ray whose first hit is near or on a half-covered lumel, or that crossed glass.
+/// A ray whose first hit is near or on a half-covered lumel, or that crossed glass: what sweeps
+/// read of it.
 struct NearLink {
-    static constexpr float kNoHit = std::numeric_limits<float>::max();
-
     std::uint32_t slot;  ///< index of the ray in its block
     LinkEnd end;
-    std::uint32_t weight;  ///< remaining weight, RGB9E5
-    float distance;        ///< to the first hit [m], or kNoHit
-    glm::vec3 light;       ///< gathered on the way and at the end, without further bounces [lx]
+    std::uint32_t packed_weight;  ///< remaining weight, RGB9E5
+
+    /// As glm::unpackF3x9_E1x5(), without a call of pow().
+    glm::vec3 weight() const
+    {
+        constexpr std::uint32_t kMantissa = 9, kMask = (1u << kMantissa) - 1u;
+        constexpr std::uint32_t kBias = 15, kBiasOfFloat = 127, kMantissaOfFloat = 23;
+        const std::uint32_t exponent = packed_weight >> 3 * kMantissa;
+        const auto scale =
+            std::bit_cast<float>((exponent + kBiasOfFloat - kBias - kMantissa) << kMantissaOfFloat);
+        return scale * glm::vec3(packed_weight & kMask, packed_weight >> kMantissa & kMask,
+                                 packed_weight >> 2 * kMantissa & kMask);
+    }
 };
 
-/// A part of NearLink::light, kept where the light of lamps is kept apart.
+/// What else is known of a near link.
+struct NearLight {
+    static constexpr float kNoHit = std::numeric_limits<float>::max();
+
+    float distance;   ///< to the first hit [m], or kNoHit
+    glm::vec3 light;  ///< gathered on the way and at the end, without further bounces [lx]
+};
+
+/// A part of NearLight::light, kept where the light of lamps is kept apart.
 struct NearShare {
     static constexpr std::uint32_t kEveryLamp = ~0u;
 
@@ -94,11 +112,12 @@ struct NearShare {
 
 /// Links of up to kLinkBlock lumels. A slot is a ray.
 struct LinkBlock {
-    std::vector<std::uint16_t> rays;  ///< [lumels]
-    std::vector<LinkEnd> ends;        ///< [slots]
-    std::vector<std::uint8_t> from;   ///< cells that the rays of cut lumels leave, in order
-    std::vector<NearLink> near;       ///< by slot
-    std::vector<NearShare> shares;    ///< by near link; empty unless lamps are kept apart
+    std::vector<std::uint16_t> rays;    ///< [lumels]
+    std::vector<LinkEnd> ends;          ///< [slots]
+    std::vector<std::uint8_t> from;     ///< cells that the rays of cut lumels leave, in order
+    std::vector<NearLink> near;         ///< by slot
+    std::vector<NearLight> near_light;  ///< of these
+    std::vector<NearShare> shares;      ///< by near link; empty unless lamps are kept apart
     /// [slots] Of the directions, see RayGuide; empty: all are equal.
     std::vector<std::uint16_t> probabilities;
     std::uint64_t traced = 0;  ///< rays; the ends of others were known
@@ -106,7 +125,7 @@ struct LinkBlock {
     template <class Archive>
     void state(Archive& archive)
     {
-        archive(rays, ends, from, near, shares, probabilities, traced);
+        archive(rays, ends, from, near, near_light, shares, probabilities, traced);
     }
 };
 
@@ -119,9 +138,10 @@ struct LinkRow {
     std::span<const LinkEnd> ends;
     const std::uint8_t* from;  ///< [ends] cells, or null for lumels that are not cut
     std::span<const NearLink> near;
-    std::span<const NearShare> shares;   ///< of these
-    std::uint32_t first_near;            ///< index of the first in its block
-    const std::uint16_t* probabilities;  ///< [ends] or null: all are equal
+    std::span<const NearLight> near_light;  ///< of these
+    std::span<const NearShare> shares;      ///< of these
+    std::uint32_t first_near;               ///< index of the first in its block
+    const std::uint16_t* probabilities;     ///< [ends] or null: all are equal
 
     /// Weight of ray k, as which its light counts; 1 on average.
     float weight(std::size_t k) const
@@ -144,7 +164,8 @@ public:
     LinkRow next(bool is_cut)
     {
         const std::size_t rays = block_->rays[lumel_++];
-        LinkRow row{slot_, {block_->ends.data() + slot_, rays}, nullptr, {}, {}, near_, nullptr};
+        LinkRow row{slot_,  {block_->ends.data() + slot_, rays}, nullptr, {}, {}, {}, near_,
+                    nullptr};
         if (!block_->probabilities.empty())
             row.probabilities = block_->probabilities.data() + slot_;
         if (is_cut) {
@@ -156,6 +177,7 @@ public:
         while (near_ < block_->near.size() && block_->near[near_].slot < slot_)
             ++near_;
         row.near = {block_->near.data() + first, near_ - first};
+        row.near_light = {block_->near_light.data() + first, near_ - first};
         const std::uint32_t first_share = share_;
         while (share_ < block_->shares.size() && block_->shares[share_].near < near_)
             ++share_;

@@ -32,7 +32,7 @@ struct LinkTracer::Path {
     std::uint32_t slot;
     float size;               ///< size of the last lumel on the path [m]
     glm::vec3 weight;         ///< that remains
-    float distance;           ///< to the first hit [m], or NearLink::kNoHit
+    float distance;           ///< to the first hit [m], or NearLight::kNoHit
     LinkEnd end;              ///< once it ended
     glm::vec3 light{0.0f};    ///< gathered [lx]
     bool is_straight = true;  ///< not reflected

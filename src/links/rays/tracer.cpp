@@ -244,7 +244,7 @@ void LinkTracer::meet_first(RayBatch& wave) const
              .slot = slot,
              .size = size,
              .weight = hit.tint,
-             .distance = at.end == LinkNumbers::kSky ? NearLink::kNoHit : hit.distance,
+             .distance = at.end == LinkNumbers::kSky ? NearLight::kNoHit : hit.distance,
              .end = LinkEnd::of(at.end)});
         if (is_lumel) {
             const bool half = parts_.is_half_covered(at.lumel);
@@ -294,10 +294,11 @@ void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
                 if (is_near)
                     block.shares.push_back(
                         {std::uint32_t(block.near.size()), share->lamp, share->at, share->light});
-            if (is_near)
-                block.near.push_back({in_block(path->slot), path->end,
-                                      glm::packF3x9_E1x5(path->weight), path->distance,
-                                      path->light});
+            if (is_near) {
+                block.near.push_back(
+                    {in_block(path->slot), path->end, glm::packF3x9_E1x5(path->weight)});
+                block.near_light.push_back({path->distance, path->light});
+            }
         }
         for (; sky != wave.sky.end() && sky->slot < end; ++sky)
             into.sky[parts_.part(i, wave.from[sky->slot])] +=
@@ -372,6 +373,7 @@ void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sendi
         block.ends.shrink_to_fit();
         block.from.shrink_to_fit();
         block.near.shrink_to_fit();
+        block.near_light.shrink_to_fit();
         block.shares.shrink_to_fit();
         block.probabilities.shrink_to_fit();
         const auto is_uniform = [](std::uint16_t one) { return one == RayGuide::kUniform; };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <glm/gtc/packing.hpp>
-
 #include "rays/paths/samples.h"
 
 namespace lumel {
@@ -90,9 +88,11 @@ void FinalGather::take(const LinkRow& row, std::size_t i)
     for (const LinkEnd end : row.ends)
         if (end.number() != LinkNumbers::kNear)
             add(end, glm::vec3(1.0f), reflected_.at(end));
-    for (const NearLink& near : row.near)
-        add(near.end, glm::unpackF3x9_E1x5(near.weight),
-            near.distance == NearLink::kNoHit ? glm::vec3(0.0f) : near.light);
+    for (std::size_t n = 0; n < row.near.size(); ++n) {
+        const NearLight& near = row.near_light[n];
+        add(row.near[n].end, row.near[n].weight(),
+            near.distance == NearLight::kNoHit ? glm::vec3(0.0f) : near.light);
+    }
 }
 
 std::vector<glm::vec3> FinalGather::irradiance() const

@@ -4,8 +4,6 @@
 #include <optional>
 #include <span>
 
-#include <glm/gtc/packing.hpp>
-
 #include "base/core/frame.h"
 #include "base/core/luminance.h"
 #include "base/core/parallel.h"
@@ -89,15 +87,16 @@ void LinkRadiosity::add_moments(std::uint32_t i, std::uint32_t k, const LinkRow&
                            PathSamples::hash(options_.seed, kLinkStream + k),
                            std::uint32_t(row.ends.size()));
     const glm::mat3 frame = frame_about(work_.world[i].normal);
-    auto near = row.near.begin();
+    std::size_t n_near = 0;
     for (std::uint32_t n = 0; n < row.ends.size(); ++n) {
         const glm::vec2 point = own[n].stratified(kDirectionPair);
         const std::uint32_t number = row.ends[n].number();
         double light = double(sent.all[number]);
         if (number == LinkNumbers::kNear) {
-            light = luminance(near->light) + luminance(glm::unpackF3x9_E1x5(near->weight)) *
-                                                 double(sent.indirect[near->end.number()]);
-            ++near;
+            const NearLink& near = row.near[n_near];
+            light = luminance(row.near_light[n_near].light) +
+                    luminance(near.weight()) * double(sent.indirect[near.end.number()]);
+            ++n_near;
         } else if (number == LinkNumbers::kSky) {
             light = luminance(glm::vec3(kPi * work_.sources.dim_sky(frame * by_cosine(point))));
         }

@@ -139,12 +139,12 @@ struct AllReflected {
     LaneLight<1> of_sky(const glm::vec3& light) const { return {glm::vec4(light, 0.0f)}; }
 };
 
-LaneLight<1> near_light(const AllReflected&, const NearLink& near, std::span<const NearShare>)
+LaneLight<1> near_light(const AllReflected&, const NearLight& near, std::span<const NearShare>)
 {
     return {glm::vec4(near.light, 0.0f)};
 }
 
-LaneLight<kLampLanes> near_light(const LampsReflected& reflected, const NearLink&,
+LaneLight<kLampLanes> near_light(const LampsReflected& reflected, const NearLight&,
                                  std::span<const NearShare> shares)
 {
     return reflected.near(shares);
@@ -155,14 +155,19 @@ class NearLinks {
 public:
     explicit NearLinks(const LinkRow& row) : row_(row) {}
 
-    /// The next, and its shares.
-    std::pair<const NearLink*, std::span<const NearShare>> next()
+    struct Near {
+        LinkEnd end;
+        const NearLight& light;
+        std::span<const NearShare> shares;
+    };
+    Near next()
     {
         const std::size_t first = share_;
         const std::uint32_t index = row_.first_near + std::uint32_t(near_);
         while (share_ < row_.shares.size() && row_.shares[share_].near == index)
             ++share_;
-        return {&row_.near[near_++], row_.shares.subspan(first, share_ - first)};
+        const std::size_t n = near_++;
+        return {row_.near[n].end, row_.near_light[n], row_.shares.subspan(first, share_ - first)};
     }
 
 private:
@@ -193,9 +198,9 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
             LinkEnd end = row.ends[k];
             const bool is_near = end.number() == LinkNumbers::kNear;
             if (is_near) {
-                const auto [near, shares] = nears.next();
-                end = near->end;
-                found = near_light(reflected, *near, shares);
+                const NearLinks::Near near = nears.next();
+                end = near.end;
+                found = near_light(reflected, near.light, near.shares);
             }
             if (end.number() == numbers.hidden() ||
                 (numbers.is_part(end.number()) && unknown[numbers.part(end.number())])) {
@@ -251,7 +256,7 @@ RayDistances find_distances(const LinkWork& work, const SubLumels& parts,
                             const LinkNumbers& numbers, std::span<const LinkTable* const> tables)
 {
     const std::size_t count = work.lumels().size();
-    RayDistances result{std::vector<float>(count, NearLink::kNoHit), std::vector<float>(count)};
+    RayDistances result{std::vector<float>(count, NearLight::kNoHit), std::vector<float>(count)};
     std::vector<std::uint32_t> rays(count, 0);
     const auto add = [&](std::uint32_t i, float distance, float weight) {
         result.nearest[i] = std::min(result.nearest[i], distance);
@@ -273,9 +278,9 @@ RayDistances find_distances(const LinkWork& work, const SubLumels& parts,
                              kNearSides * std::max(lumel.size, hit.size)),
                     row.weight(k));
             }
-            for (const NearLink& near : row.near)
-                add(i, std::max(near.distance, kLeastDistance * lumel.size),
-                    row.weight(near.slot - row.first_slot));
+            for (std::size_t n = 0; n < row.near.size(); ++n)
+                add(i, std::max(row.near_light[n].distance, kLeastDistance * lumel.size),
+                    row.weight(row.near[n].slot - row.first_slot));
         });
     for (std::size_t i = 0; i < count; ++i)
         result.inverse[i] /= float(std::max(rays[i], 1u));

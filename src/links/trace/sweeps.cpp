@@ -5,8 +5,6 @@
 #include <cmath>
 #include <map>
 
-#include <glm/gtc/packing.hpp>
-
 #include "base/core/error.h"
 #include "base/core/frame.h"
 #include "base/core/parallel.h"
@@ -69,7 +67,7 @@ template <std::size_t Lanes>
 void add_near(LaneLight<Lanes>& sum, const LinkRow& row, const NearLink& near,
               const Light<Lanes>& sent)
 {
-    const glm::vec4 passed(glm::unpackF3x9_E1x5(near.weight), 0.0f);
+    const glm::vec4 passed(near.weight(), 0.0f);
     const float weight = row.weight(near.slot - row.first_slot);
     for (std::size_t lane = 0; lane < Lanes; ++lane)
         sum[lane] += weight * sent[near.end.number()][lane] * passed;
@@ -284,7 +282,7 @@ private:
         for (std::size_t k = 0; k < row.ends.size(); ++k)
             add(k, row.ends[k], glm::dvec3(1.0));
         for (const NearLink& near : row.near)
-            add(near.slot - row.first_slot, near.end, glm::unpackF3x9_E1x5(near.weight));
+            add(near.slot - row.first_slot, near.end, near.weight());
     }
 
     /// In place, by Gauss-Jordan elimination with diagonal pivots: 1 - K is diagonally dominant.

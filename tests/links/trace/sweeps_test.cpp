@@ -91,7 +91,7 @@ std::vector<Link> links_of(const TracedRoom& room)
                     const std::vector<NearLink>& by_slot = round[b].near;
                     if (near < by_slot.size() && by_slot[near].slot == slot) {
                         add(from, by_slot[near].end,
-                            of_ray * glm::dvec3(glm::unpackF3x9_E1x5(by_slot[near].weight)));
+                            of_ray * glm::dvec3(glm::unpackF3x9_E1x5(by_slot[near].packed_weight)));
                         ++near;
                     } else {
                         add(from, round[b].ends[slot], glm::dvec3(of_ray));
