@@ -17,6 +17,8 @@ export interface Lamps {
     setLamp(name: string, state: LampState): void;
     /** Changes several lamps at once, which costs as much as one. */
     setLamps(states: Record<string, LampState> | Map<string, LampState>): void;
+    /** Shows the scene as baked, and frees the textures that the first change has made. A later change makes them again. */
+    dispose(): void;
 }
 
 /** A plugin of GLTFLoader that binds what MOZ_lightmap names. */

@@ -89,6 +89,7 @@ function arrayOf(lamps, bytes, width, height, unit) {
     array.format = THREE.RGBFormat;
     array.type = THREE.UnsignedInt5999Type;
     array.needsUpdate = true;
+    array.onUpdate = () => { array.image.data = null; }; // the GPU has them
     return array;
 }
 
@@ -107,14 +108,17 @@ export class LampSum {
         this.sum = target(halfWidth, halfHeight);
         this.fit = target(halfWidth, halfHeight, 2);
         [this.others, this.one, this.lit] = [0, 1, 2].map(() => target(width, height));
-        const maps = arrayOf(lamps, bytes, halfWidth, halfHeight, unit), [slope, rest] = this.fit.textures;
+        this.maps = arrayOf(lamps, bytes, halfWidth, halfHeight, unit);
+        const [slope, rest] = this.fit.textures;
         const unused = Array.from({ length: mostLamps - lamps.length }, () => new THREE.Vector3());
         this.summed = this.gains.map((gain) => gain.clone());
-        this.sumPass = pass(sumOfLamps, { lamps: maps, count: lamps.length, gains: [...this.summed, ...unused] });
+        this.sumPass = pass(sumOfLamps, { lamps: this.maps, count: lamps.length, gains: [...this.summed, ...unused] });
         this.fitPass = pass(fitOfDetails, { sum: this.sum.texture, whole: all.texture });
         this.detailPass = pass(withDetails, { slope, rest, details: whole, least: 0 });
         this.twoPass = pass(sumOfTwo,
             { others: this.others.texture, one: this.one.texture, gain: new THREE.Vector3() });
+        this.owned = [all, this.sum, this.fit, this.others, this.one, this.lit, this.maps,
+            ...[this.sumPass, this.fitPass, this.detailPass, this.twoPass].map(({ material }) => material)];
         this.run([this.sumPass, all]);
         this.addAll();
         this.texture = new THREE.ExternalTexture(renderer.properties.get(this.lit.texture).__webglTexture);
@@ -186,6 +190,12 @@ export class LampSum {
         const halves = new Uint16Array(4 * width * height);
         this.renderer.readRenderTargetPixels(this.lit, left, top, width, height, halves);
         return halves;
+    }
+
+    /** Frees the memory of the GPU. `texture` must no longer be in use. */
+    dispose() {
+        this.texture.dispose();
+        for (const one of this.owned) one.dispose();
     }
 }
 

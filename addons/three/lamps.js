@@ -34,17 +34,24 @@ function materialsByPage(scene) {
     return pages;
 }
 
-// One sum for each page of the lightmap, in place of the maps that the materials had.
+// One sum for each page of the lightmap, in place of the maps that the materials have. Returns the function that frees
+// the sums and puts those maps back.
 function bindSums(renderer, materialsOf, { list }, bytes) {
-    const pages = list[0].brightest.length, each = bytes.length / pages;
-    return materialsOf.map((materials, page) => {
+    const each = bytes.length / list[0].brightest.length;
+    const bound = materialsOf.map((materials, page) => {
         const [{ lightMap, lightMapIntensity }] = materials;
         const lamps = list.map(({ brightest }) => ({ brightest: brightest[page] }));
         const sum = new LampSum(renderer, lightMap, lightMapIntensity, lamps,
             bytes.subarray(page * each, (page + 1) * each));
+        const own = [...materials].map((material) => [material, material.lightMap]); // GLTFLoader clones textures
         for (const material of materials) material.lightMap = sum.texture;
-        return sum;
+        return { sum, own };
     }).filter(Boolean);
+    const unbind = () => bound.forEach(({ sum, own }) => {
+        for (const [material, map] of own) material.lightMap = map;
+        sum.dispose();
+    });
+    return { sums: bound.map(({ sum }) => sum), unbind };
 }
 
 // Linear RGB of a colour: "#rrggbb" in sRGB, a number such as 0xffb070, or a THREE.Color.
@@ -68,15 +75,18 @@ function refuse(name, names, reason) {
 // The result for a scene without lamps that can be dimmed.
 function without(reason) {
     const setLamp = (name) => refuse(name, [], reason);
-    return { lamps: [], setLamp, setLamps: (states) => entriesOf(states).forEach(([name]) => setLamp(name)) };
+    return { lamps: [], setLamp, setLamps: (states) => entriesOf(states).forEach(([name]) => setLamp(name)),
+        dispose() {} };
 }
 
 const entriesOf = (states) => states instanceof Map ? [...states] : Object.entries(states);
 
+const inUse = new WeakSet(); // scenes whose lamps have been found
+
 /**
  * The lamps of a loaded scene: their names `lamps`; setLamp(name, { factor, colour }), which multiplies the light of one;
- * and setLamps({ name: { factor, colour } … }) for several at once. What is left out stays as it is; a colour of null is
- * that of the bake.
+ * setLamps({ name: { factor, colour } … }) for several at once; and dispose(), which shows the scene as baked and frees
+ * what the first change has made. What is left out of a change stays as it is; a colour of null is that of the bake.
  */
 export async function lampsOf(renderer, gltf) {
     const told = gltf.asset.extras?.lumel?.lamps;
@@ -85,15 +95,19 @@ export async function lampsOf(renderer, gltf) {
     if (!canAdd(renderer)) return without('this browser cannot draw into textures of floating-point numbers.');
     const bytes = await mapsOf(gltf, told, told.list[0].brightest.length);
     if (!bytes) return without('a tool has dropped the maps of the lamps from the file.');
-    const materialsOf = materialsByPage(gltf.scene);
-    if (materialsOf.length === 0) return without('no material has the lightmap; load the scene with LightmapPlugin.');
-    const fits = materialsOf.every(([{ lightMap: { image } }]) => image &&
+    if (inUse.has(gltf.scene)) return without('its lamps are in use already.');
+    const lit = materialsByPage(gltf.scene);
+    if (lit.length === 0) return without('no material has the lightmap; load the scene with LightmapPlugin.');
+    const fits = lit.every(([{ lightMap: { image } }]) =>
         Math.ceil(image.width / 2) === told.width && Math.ceil(image.height / 2) === told.height);
-    if (!fits) return without('its lamps are in use already, or a tool has changed the size of its lightmap.');
-    const sums = bindSums(renderer, materialsOf, told, bytes);
+    if (!fits) return without('a tool has changed the size of its lightmap.');
+    inUse.add(gltf.scene);
     const surfaces = lampSurfaces(gltf.scene, told.list);
+    const materialsOf = materialsByPage(gltf.scene); // with those that the surfaces have now
     const names = told.list.map(({ name }) => name);
-    const states = new Map(names.map((name) => [name, { factor: 1, colour: null }]));
+    const baked = { factor: 1, colour: null };
+    const states = new Map(names.map((name) => [name, baked]));
+    let bound = null; // until the first change
 
     const setLamps = (changes) => {
         const changed = entriesOf(changes).map(([name, { factor, colour } = {}]) => {
@@ -104,14 +118,21 @@ export async function lampsOf(renderer, gltf) {
             checkFactor(state.factor);
             return [name, state];
         });
+        bound ??= bindSums(renderer, materialsOf, told, bytes);
         for (const [name, state] of changed) {
             const index = names.indexOf(name);
             const gain = lampGain(told.list[index].color, state.factor, state.colour);
             states.set(name, state);
-            for (const sum of sums) sum.setGain(index, gain);
+            for (const sum of bound.sums) sum.setGain(index, gain);
             dim(surfaces[index], gain);
         }
-        for (const sum of sums) sum.refresh();
+        for (const sum of bound.sums) sum.refresh();
     };
-    return { lamps: names, setLamp: (name, state) => setLamps(new Map([[name, state]])), setLamps };
+    const dispose = () => {
+        bound?.unbind();
+        bound = null;
+        for (const name of names) states.set(name, baked);
+        for (const surface of surfaces) dim(surface, [1, 1, 1]);
+    };
+    return { lamps: names, setLamp: (name, state) => setLamps(new Map([[name, state]])), setLamps, dispose };
 }

@@ -127,6 +127,15 @@ async function probe(lamps, pages, steps) {
     const found = { names: gltf.lamps, same: described(gltf) === beforeLamps,
         plain: apart(lightOf(gltf), (page, i) => plainLight[page][i]), picture: differenceOf(asBaked, pictureOf(asLoaded)) };
 
+    const lightMapsOf = ({ scene }) => {
+        const maps = [];
+        scene.traverse(({ material }) => { if (material?.lightMap) maps.push(material.lightMap); });
+        return maps;
+    };
+    const texturesInUse = () => renderer.info.memory.textures;
+    const texturesAtFirst = texturesInUse(), mapsAtFirst = lightMapsOf(gltf);
+    found.own = mapsAtFirst.every(({ isExternalTexture }) => !isExternalTexture);
+
     const luxOf = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
     const states = lamps.map(() => ({ factor: 1, colour: null }));
     const gainOf = ({ factor, colour }, { color }) => {
@@ -155,10 +164,22 @@ async function probe(lamps, pages, steps) {
     found.again = differenceOf(pictureOf(gltf), asBaked);
 
     const [first] = gltf.lamps;
+    const again = await lampsOf(renderer, gltf);
     found.messages = [() => gltf.setLamp('toaster', { factor: 0 }), () => gltf.setLamp('constructor', {}),
         () => gltf.setLamps({ [first]: { factor: 0 }, toaster: {} }), () => gltf.setLamp(first, { factor: -1 }),
         () => gltf.setLamp(first, { factor: '1' }), () => gltf.setLamp(first, { colour: 'warm' })].map(messageOf);
     found.unharmed = differenceOf(pictureOf(gltf), asBaked);
+    // Twice: what is freed is made again.
+    found.freed = [0, 1].map(() => {
+        gltf.setLamp(first, { factor: 0 });
+        const bound = lightMapsOf(gltf), dimmed = differenceOf(pictureOf(gltf), asBaked), during = texturesInUse();
+        gltf.dispose();
+        const maps = lightMapsOf(gltf), picture = differenceOf(pictureOf(gltf), asBaked);
+        return { before: texturesAtFirst, during, after: texturesInUse(), dimmed, picture,
+            replaced: bound.every((map, i) => map !== mapsAtFirst[i]),
+            restored: maps.length === mapsAtFirst.length && maps.every((map, i) => map === mapsAtFirst[i]) };
+    });
+    found.inUse = messageOf(() => again.setLamp(first, {}));
     const without = await loadLitScene(renderer, '/plain.glb');
     found.without = { names: without.lamps, message: messageOf(() => without.setLamp('sun', { factor: 0 })) };
     asLoaded.asset.extras.lumel.lamps.bufferView = 0; // as if a tool had renumbered the views
