@@ -1,6 +1,7 @@
 // Lightmaps of Lumel in three.js.
 
 import * as THREE from 'three';
+import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
@@ -32,6 +33,7 @@ export function makeDiffuse(gltf) {
 export async function loadLitScene(renderer, url) {
     const loader = new GLTFLoader();
     loader.setKTX2Loader(new KTX2Loader().detectSupport(renderer));
+    loader.setMeshoptDecoder(MeshoptDecoder); // for --compress meshopt
     loader.register((parser) => new LightmapPlugin(parser));
     const gltf = await loader.loadAsync(url);
     makeDiffuse(gltf); // to be left out where the scene has an environment map

@@ -24,6 +24,8 @@ const Choices<LightmapFormat> kLightmapFormats = {{"ktx2", LightmapFormat::ktx2}
                                                   {"rgb9e5", LightmapFormat::rgb9e5},
                                                   {"png", LightmapFormat::png},
                                                   {"none", LightmapFormat::none}};
+const Choices<Compression> kCompressions = {{"none", Compression::none},
+                                            {"meshopt", Compression::meshopt}};
 const Choices<Quality> kQualities = {{"draft", kDraft}, {"good", kGood}, {"fine", kFine}};
 const Choices<ProgressStyle> kProgressStyles = {{"auto", ProgressStyle::automatic},
                                                 {"json", ProgressStyle::json},
@@ -248,6 +250,13 @@ void add_scene_file_options(Command& command, BakeOptions& options)
                          "the PNG (png); or none",
                          {},
                          "ktx2"}),
+                 choice(options.compression, kCompressions,
+                        {"--compress",
+                         "",
+                         "Compression of vertices and indices in scene.glb, without loss: "
+                         "EXT_meshopt_compression (meshopt), which the viewer must read; or none",
+                         {},
+                         "none"}),
                  {"--baked-size", "N",
                   "Maximum side of the texture of scene-baked.glb in texels; it is as dense as the "
                   "scene's textures if that fits, and never smaller than the lightmap",

@@ -66,8 +66,9 @@ nlohmann::json json_of_glb(const std::string& file)
 TEST(Bake, ReportAndSceneStateTheExposureOfThePictures)
 {
     const Workplace place;
-    const Outcome bake = run_lumel(
-        small_bake(place.path("out"), {"--shots", "64", "--json", "--lightmap-format", "none"}));
+    const Outcome bake =
+        run_lumel(small_bake(place.path("out"), {"--shots", "64", "--json", "--lightmap-format",
+                                                 "none", "--compress", "meshopt"}));
     ASSERT_EQ(bake.code, 0) << bake.err;
     const auto report = nlohmann::json::parse(bake.out);
     const auto scene = json_of_glb(bytes_of(place.path("out/scene.glb")));
@@ -76,6 +77,8 @@ TEST(Bake, ReportAndSceneStateTheExposureOfThePictures)
     EXPECT_NEAR(report["solution"]["exposure"], exposure, 1e-6 * exposure);
     EXPECT_FALSE(scene.contains("images"));
     EXPECT_EQ(report["settings"]["lightmap-format"], "none");
+    EXPECT_EQ(report["settings"]["compress"], "meshopt");
+    EXPECT_EQ(scene["extensionsRequired"], nlohmann::json({"EXT_meshopt_compression"}));
 }
 
 TEST(Bake, TakesAnExposureThatItsCorrectionsKeep)

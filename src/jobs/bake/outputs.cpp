@@ -163,6 +163,7 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
                     {.keep = options.keep_lights || options.parts == Parts::indirect,
                      .exposure = written.exposure,
                      .format = options.lightmap_format,
+                     .compression = options.compression,
                      .camera = camera,
                      .lamps = lamps});
     const BakedTexture baked = baked_texture(prepared, map, radiance, options.baked_size);

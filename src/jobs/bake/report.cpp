@@ -22,6 +22,7 @@ BakeRecord record_of(const BakeOptions& options, const SolveScene& prepared, con
                       .half = options.half,
                       .keep_lights = options.keep_lights,
                       .lightmap_format = options.lightmap_format,
+                      .compression = options.compression,
                       .baked_size = options.baked_size,
                       .given_exposure = options.exposure,
                       .keep_links = options.keep_links ? std::uint32_t(results.shots) : 0,

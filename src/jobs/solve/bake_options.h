@@ -11,6 +11,7 @@
 #include "raster/shadow_maps/direct_light.h"
 #include "results/directional/directional.h"
 #include "results/record/bake_record.h"
+#include "scene/gltf/compression.h"
 #include "scene/sky/light_options.h"
 #include "scene/values/parts.h"
 
@@ -26,6 +27,7 @@ struct BakeOptions {
     bool half = false;                                      ///< lightmap.exr in half precision
     bool keep_lights = false;                               ///< keeps baked lights in scene.glb
     LightmapFormat lightmap_format = LightmapFormat::ktx2;  ///< in scene.glb
+    Compression compression = Compression::none;            ///< of the geometry in scene.glb
     int baked_size = kBakedSize;  ///< maximum side of the texture of scene-baked.glb [texels]
     Directional directional = Directional::none;  ///< extra layers of lightmap.exr
     int preview_width = 1280;                     ///< [pixels], 0: no preview

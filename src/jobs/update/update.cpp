@@ -205,6 +205,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
                                 .half = baked.half,
                                 .keep_lights = baked.keep_lights,
                                 .lightmap_format = baked.lightmap_format,
+                                .compression = baked.compression,
                                 .baked_size = baked.baked_size,
                                 .preview_width = options.preview_width,
                                 .exposure = baked.given_exposure};

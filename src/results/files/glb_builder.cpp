@@ -7,11 +7,13 @@
 #include <optional>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "base/core/error.h"
 #include "base/images/image_files.h"
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/extras.h"
+#include "scene/gltf/meshopt.h"
 #include "scene/gltf/page_parts.h"
 #include "scene/gltf/webp.h"
 #include "scene/load/webp_image.h"
@@ -71,6 +73,33 @@ std::set<std::size_t> used_views(const Json& json)
     return views;
 }
 
+std::size_t bytes_of_index(const Json& accessor)
+{
+    switch (ComponentType(accessor.at("componentType").get<int>())) {
+    case ComponentType::u32:
+        return 4;
+    case ComponentType::u16:
+        return 2;
+    default:
+        return 1;
+    }
+}
+
+/// Bytes of an index, by the bufferViews of indices.
+std::map<std::size_t, std::size_t> sizes_of_indices(const Json& json)
+{
+    std::map<std::size_t, std::size_t> sizes;
+    for (const Json& mesh : list(json, "meshes"))
+        for (const Json& primitive : list(mesh, "primitives")) {
+            if (!primitive.contains("indices"))
+                continue;
+            const Json& accessor = json.at("accessors").at(index_of(primitive["indices"]));
+            if (accessor.contains("bufferView"))
+                sizes[index_of(accessor["bufferView"])] = bytes_of_index(accessor);
+        }
+    return sizes;
+}
+
 std::string mime_type_of(const Bytes& file)
 {
     struct Signature {
@@ -110,9 +139,14 @@ void append_word(std::vector<std::uint8_t>& out, std::size_t word)
         out.push_back(static_cast<std::uint8_t>(word >> shift));
 }
 
+std::size_t aligned(std::size_t size)
+{
+    return (size + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
+}
+
 void pad(std::vector<std::uint8_t>& out, std::uint8_t filler)
 {
-    out.resize((out.size() + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment, filler);
+    out.resize(aligned(out.size()), filler);
 }
 
 std::size_t put(Json& array, std::set<std::size_t>& free, Json value)
@@ -323,14 +357,63 @@ std::size_t GlbBuilder::add_texture(const std::string& name, std::span<const std
     return put(json["textures"], free_textures_, std::move(texture));
 }
 
-std::vector<std::uint8_t> GlbBuilder::finish()
+/// Encodes bufferViews of vertices and indices that become smaller. Returns the size that they have
+/// decoded.
+std::size_t GlbBuilder::compress()
 {
+    const std::vector<std::uint8_t> plain = std::exchange(binary_, {});
+    const std::map<std::size_t, std::size_t> index_sizes = sizes_of_indices(json);
+    std::size_t decoded = 0;
+    std::map<std::tuple<std::size_t, std::size_t, std::size_t>, Json> written;  // once each
+    const auto views = json.find("bufferViews");
+    for (std::size_t i = 0; views != json.end() && i < views->size(); ++i) {
+        Json& view = (*views)[i];
+        if (!view.contains("byteOffset"))
+            continue;  // released, without data
+        const std::size_t offset = view["byteOffset"], length = view["byteLength"];
+        const auto index_size = index_sizes.find(i);
+        const PlainView elements{.bytes = std::span(plain).subspan(offset, length),
+                                 .stride = index_size != index_sizes.end()
+                                               ? index_size->second
+                                               : view.value("byteStride", std::size_t(0)),
+                                 .is_indices = index_size != index_sizes.end()};
+        const auto [place, is_new] =
+            written.try_emplace({offset, length, elements.stride}, Json::object());
+        if (is_new) {
+            std::optional<EncodedView> encoded;
+            if (is_encodable(elements))
+                encoded = encode_meshopt(elements);
+            if (encoded && encoded->bytes.size() < length) {
+                encoded->extension.update({{"buffer", 0}, {"byteOffset", append(encoded->bytes)}});
+                decoded = aligned(decoded);
+                place->second = {{"buffer", 1}, {"byteOffset", decoded}};
+                place->second["extensions"][kMeshoptExtension] = std::move(encoded->extension);
+                decoded += length;
+            } else {
+                place->second = {{"buffer", 0}, {"byteOffset", append(elements.bytes)}};
+            }
+        }
+        view.update(place->second, true);
+    }
+    return decoded;
+}
+
+std::vector<std::uint8_t> GlbBuilder::finish(Compression compression)
+{
+    const std::size_t decoded = compression == Compression::meshopt ? compress() : 0;
     pad(binary_, 0);
     require_webp_images(json, is_webp_);
     json["asset"]["generator"] = "Lumel";
     json["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+    if (decoded > 0) {
+        Json fallback = {{"byteLength", decoded}};
+        fallback["extensions"][kMeshoptExtension]["fallback"] = true;
+        json["buffers"].push_back(std::move(fallback));
+        for (const char* list : {"extensionsUsed", "extensionsRequired"})
+            json[list].push_back(kMeshoptExtension);
+    }
     std::string text = json.dump();
-    text.resize((text.size() + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment, ' ');
+    text.resize(aligned(text.size()), ' ');
 
     const std::size_t size =
         kHeaderSize + kChunkHeaderSize + text.size() + kChunkHeaderSize + binary_.size();

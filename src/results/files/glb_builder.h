@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/gltf/compression.h"
 #include "scene/gltf/document.h"
 
 namespace lumel {
@@ -50,7 +51,7 @@ public:
     void retire_texture(std::size_t texture);
 
     /// The finished file. Throws Error{output} if it exceeds GLB's 4 GiB.
-    std::vector<std::uint8_t> finish();
+    std::vector<std::uint8_t> finish(Compression compression = Compression::none);
 
 private:
     void look_at_images(Pictures pictures);
@@ -58,6 +59,7 @@ private:
                                         std::set<std::size_t> (*used_in)(const Json&));
     void copy_views();
     void embed_images(Pictures pictures);
+    std::size_t compress();
     std::size_t append(std::span<const std::uint8_t> bytes);
     std::size_t add_image(const std::string& name, const char* type,
                           std::span<const std::uint8_t> file);

@@ -103,7 +103,8 @@ std::size_t add_lightmap(GlbBuilder& builder, const Image& map, float scale,
 /// builder and the materials by page.
 template <class Prepare, class Finish>
 void rewrite(const std::string& path, const GltfDocument& document, const Scene& scene,
-             const Atlas& atlas, Attributes kept, const Prepare& prepare, const Finish& finish)
+             const Atlas& atlas, Attributes kept, Compression compression, const Prepare& prepare,
+             const Finish& finish)
 try {
     GlbBuilder builder(document);
     forget_lamps(builder.json);
@@ -115,7 +116,7 @@ try {
     place_baked_primitives(builder, baked, atlas, kept);
     finish(builder, materials);
     list_extensions(builder.json, document.json);
-    const std::vector<std::uint8_t> file = builder.finish();
+    const std::vector<std::uint8_t> file = builder.finish(compression);
     write_bytes(path, std::as_bytes(std::span(file)));
 } catch (const Json::exception& error) {  // the reader skips such JSON, but the output needs it
     throw Error(ErrorKind::input, scene.path, std::string("cannot be rewritten: ") + error.what());
@@ -148,7 +149,7 @@ void write_scene_glb(const std::string& path, const GltfDocument& document, cons
         if (!lights.lamps.empty() && lights.format != LightmapFormat::none)
             add_lamps(builder, atlas.pages, lights.lamps);
     };
-    rewrite(path, document, scene, atlas, Attributes::all, prepare, finish);
+    rewrite(path, document, scene, atlas, Attributes::all, lights.compression, prepare, finish);
 }
 
 void write_baked_glb(const std::string& path, const GltfDocument& document, const Scene& scene,
@@ -170,7 +171,7 @@ void write_baked_glb(const std::string& path, const GltfDocument& document, cons
                                               encode_png(part)));
         }
     };
-    rewrite(path, document, scene, atlas, Attributes::visible, prepare, finish);
+    rewrite(path, document, scene, atlas, Attributes::visible, Compression::none, prepare, finish);
 }
 
 }  // namespace lumel

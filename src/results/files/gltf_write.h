@@ -15,6 +15,7 @@
 #include "base/core/image.h"
 #include "base/images/lightmap_format.h"
 #include "results/files/lamps_in_scene.h"
+#include "scene/gltf/compression.h"
 #include "scene/gltf/document.h"
 #include "scene/values/scene.h"
 #include "scene/values/view.h"
@@ -32,6 +33,7 @@ struct SceneLighting {
     bool keep = false;              ///< keeps lamps and skies of the input
     std::optional<float> exposure;  ///< exposure for the scene [1/lx]
     LightmapFormat format = LightmapFormat::ktx2;
+    Compression compression = Compression::none;
     std::optional<AddedCamera> camera;
     std::span<const SceneLamp> lamps = {};  ///< whose light is kept apart; not for format none
 };

@@ -75,6 +75,8 @@ void write_given(const BakeRecord& record, Json& settings)
 {
     if (record.given_exposure > 0.0f)
         settings["exposure"] = shortest(record.given_exposure);
+    if (record.compression != Compression::none)
+        settings["compress"] = word_of(record.compression);
     if (record.keep_links > 0)
         settings["keep-links"] = record.keep_links;
     if (const auto* links = std::get_if<LinksOptions>(&record.solver.method);
@@ -86,6 +88,8 @@ void read_given(const JsonView& settings, BakeRecord& record)
 {
     if (const auto exposure = settings.find("exposure"))
         record.given_exposure = float(exposure->number(0.0, std::numeric_limits<float>::max()));
+    if (const auto compression = settings.find("compress"))
+        record.compression = value_of_word<Compression>(*compression);
     if (const auto rays = settings.find("keep-links"))
         record.keep_links = std::uint32_t(rays->integer(1, kMaxStoredLinks));
     auto* links = std::get_if<LinksOptions>(&record.solver.method);

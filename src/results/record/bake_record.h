@@ -12,6 +12,7 @@
 #include "methods/options.h"
 #include "results/directional/directional.h"
 #include "results/record/report.h"
+#include "scene/gltf/compression.h"
 #include "scene/sky/light_options.h"
 #include "scene/values/parts.h"
 
@@ -42,6 +43,7 @@ struct BakeRecord {
     bool half = false;
     bool keep_lights = false;
     LightmapFormat lightmap_format = LightmapFormat::ktx2;
+    Compression compression = Compression::none;
     int baked_size = kBakedSize;
     float given_exposure = 0.0f;   ///< by the user [m²/cd]; 0: fitted
     std::uint32_t keep_links = 0;  ///< stored rays per lumel, 0: none

@@ -9,6 +9,7 @@
 #include "base/images/lightmap_format.h"
 #include "base/json/json_view.h"
 #include "results/directional/directional.h"
+#include "scene/gltf/compression.h"
 #include "scene/values/parts.h"
 
 namespace lumel {
@@ -37,6 +38,9 @@ inline constexpr std::array<EnumName<LightmapFormat>, 4> kWords<LightmapFormat> 
      {"rgb9e5", LightmapFormat::rgb9e5},
      {"png", LightmapFormat::png},
      {"none", LightmapFormat::none}}};
+template <>
+inline constexpr std::array<EnumName<Compression>, 2> kWords<Compression> = {
+    {{"none", Compression::none}, {"meshopt", Compression::meshopt}}};
 
 template <>
 inline constexpr std::array<EnumName<Sides>, 4> kWords<Sides> = {{{"auto", Sides::automatic},

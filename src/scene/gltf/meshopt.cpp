@@ -1,6 +1,8 @@
 #include "scene/gltf/meshopt.h"
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -14,8 +16,7 @@ namespace lumel {
 
 namespace {
 
-constexpr std::array<const char*, 2> kNames = {"EXT_meshopt_compression",
-                                               "KHR_meshopt_compression"};
+constexpr std::array<const char*, 2> kNames = {kMeshoptExtension, "KHR_meshopt_compression"};
 constexpr std::int64_t kLargestCodedStride = 256;
 constexpr std::int64_t kLargestCodedCount = std::int64_t(1) << 40;
 constexpr std::int64_t kLargestCodedSize = std::int64_t(1) << 50;
@@ -25,6 +26,8 @@ constexpr std::size_t kCornersOfTriangle = 3;
 constexpr std::size_t kVerticesPerByte = 64;
 /// First byte of vertices in the newer bitstream of KHR_meshopt_compression.
 constexpr std::uint8_t kNewerVertices = 0xA1;
+/// Bitstreams of EXT_meshopt_compression; the library's defaults differ by its version.
+constexpr int kVertexVersion = 0, kIndexVersion = 1;
 
 enum class CodingMode { attributes, triangles, indices };
 enum class Filter { none, octahedral, quaternion, exponential };
@@ -178,6 +181,42 @@ Bytes decoded(const GltfDocument& document, const JsonView& view, const JsonView
     return plain;
 }
 
+template <class Index>
+std::vector<std::uint32_t> wide_indices(std::span<const std::uint8_t> bytes)
+{
+    std::vector<std::uint32_t> indices(bytes.size() / sizeof(Index));
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        Index index;
+        std::memcpy(&index, bytes.data() + i * sizeof(Index), sizeof(Index));
+        indices[i] = index;
+    }
+    return indices;
+}
+
+/// Encoded as a sequence: coding triangles may rotate their corners.
+Bytes encoded_indices(const PlainView& view)
+{
+    const std::vector<std::uint32_t> indices = view.stride == sizeof(std::uint16_t)
+                                                   ? wide_indices<std::uint16_t>(view.bytes)
+                                                   : wide_indices<std::uint32_t>(view.bytes);
+    const std::size_t vertices = std::size_t(*std::ranges::max_element(indices)) + 1;
+    meshopt_encodeIndexVersion(kIndexVersion);
+    Bytes bytes(meshopt_encodeIndexSequenceBound(indices.size(), vertices));
+    bytes.resize(
+        meshopt_encodeIndexSequence(bytes.data(), bytes.size(), indices.data(), indices.size()));
+    return bytes;
+}
+
+Bytes encoded_vertices(const PlainView& view)
+{
+    const std::size_t count = view.bytes.size() / view.stride;
+    meshopt_encodeVertexVersion(kVertexVersion);
+    Bytes bytes(meshopt_encodeVertexBufferBound(count, view.stride));
+    bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), view.bytes.data(), count,
+                                            view.stride));
+    return bytes;
+}
+
 bool has_plain_data(const GltfDocument& document, const JsonView& view)
 {
     const std::size_t buffer = view.get("buffer").index(document.buffers.size(), "buffers");
@@ -215,6 +254,24 @@ void decode_meshopt(GltfDocument& document)
                     erase_extension(part, name);
         forget_extension(document.json, name);
     }
+}
+
+bool is_encodable(const PlainView& view)
+{
+    return !view.bytes.empty() && view.stride > 0 && view.bytes.size() % view.stride == 0 &&
+           std::int64_t(view.stride) <= kLargestCodedStride &&
+           fits(view.is_indices ? CodingMode::indices : CodingMode::attributes, Filter::none,
+                view.stride);
+}
+
+EncodedView encode_meshopt(const PlainView& view)
+{
+    EncodedView encoded{.extension = {{"byteStride", view.stride},
+                                      {"count", view.bytes.size() / view.stride},
+                                      {"mode", view.is_indices ? "INDICES" : "ATTRIBUTES"}},
+                        .bytes = view.is_indices ? encoded_indices(view) : encoded_vertices(view)};
+    encoded.extension["byteLength"] = encoded.bytes.size();
+    return encoded;
 }
 
 std::string meshoptimizer_version()

@@ -260,6 +260,41 @@ TEST(GltfWrite, EveryTriangleOfEveryLoadableFileComesBackInItsPlace)
     EXPECT_GT(tried, 100u);
 }
 
+TEST(GltfWrite, CompressedGeometryIsThatOfThePlainFileByteForByte)
+{
+    if (conformance_files().empty())
+        GTEST_SKIP() << "no conformance files at " << kConformance;
+    const test::TemporaryFolder folder;
+    std::size_t compressed = 0;
+    for (const std::string& path : conformance_files()) {
+        SCOPED_TRACE(path);
+        const std::optional<Scene> scene = try_read(path);
+        if (!scene)
+            continue;
+        const Atlas atlas = test::corner_atlas(*scene);
+        const GltfDocument document = load_gltf_document(scene->path);
+        const auto write = [&](const char* name, Compression compression) {
+            write_scene_glb(folder / name, document, *scene, atlas, test::any_map(atlas),
+                            {.format = LightmapFormat::none, .compression = compression});
+            return load_gltf_document(folder / name);
+        };
+        const GltfDocument plain = write("plain.glb", Compression::none);
+        const GltfDocument packed = write("packed.glb", Compression::meshopt);
+        std::ifstream file(folder / "packed.glb", std::ios::binary);
+        const std::string bytes(std::istreambuf_iterator<char>(file), {});
+        if (bytes.find("EXT_meshopt_compression") != std::string::npos)
+            ++compressed;
+        ASSERT_EQ(packed.json["accessors"], plain.json["accessors"]);
+        ASSERT_EQ(packed.json["meshes"], plain.json["meshes"]);
+        for (std::size_t i = 0; i < plain.json["accessors"].size(); ++i)
+            if (plain.json["accessors"][i].contains("bufferView")) {
+                ASSERT_EQ(read_accessor(packed, i).bytes, read_accessor(plain, i).bytes);
+            }
+        EXPECT_EQ(read_gltf(folder / "packed.glb").hash, read_gltf(folder / "plain.glb").hash);
+    }
+    EXPECT_GT(compressed, 50u);
+}
+
 TEST(GltfWrite, MaterialsLookAsBeforeInSceneGlb)
 {
     if (conformance_files().empty())

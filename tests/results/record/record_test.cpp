@@ -23,6 +23,7 @@ BakeRecord unusual()
                       .parts = Parts::indirect,
                       .directional = Directional::sh2,
                       .half = true,
+                      .compression = Compression::meshopt,
                       .pages = {4, 48},
                       .texels_per_metre = 12.345678,
                       .shots = 123456,
