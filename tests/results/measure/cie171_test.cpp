@@ -3,7 +3,9 @@
 // of 4 × 3 × 4 m with walls without thickness; points A to F up and down the wall z = 0, G to N
 // along the floor, all at x = 2 m.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -184,6 +186,52 @@ TEST(Case511Ceiling, TheGroundThroughTheWall)
                 << whole_wall << char('G' + i);
     }
 }
+
+/// Depth of a black canopy over the window, level with the ceiling [m].
+class Case513 : public testing::TestWithParam<float> {};
+
+/// 100 E / E_outside at the floor, by the overcast sky, L = L_z (1 + 2 sin γ) / 3 and E_outside =
+/// 7/9 π L_z, over the part of the window below the line of sight to the end of the canopy. The
+/// point is `distance` from the window [m], at its middle.
+double below_a_canopy(double distance, double depth)
+{
+    constexpr int kSteps = 400;
+    const double sill = 1.0, half_width = 1.0;
+    const double top = std::min(2.0, kHeight * distance / (distance + depth));
+    double sum = 0.0;
+    for (int i = 0; top > sill && i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+            const double y = sill + (top - sill) * (i + 0.5) / kSteps;
+            const double x = half_width * (2.0 * (j + 0.5) / kSteps - 1.0);
+            const double r = std::sqrt(x * x + y * y + distance * distance);
+            sum += (1.0 + 2.0 * y / r) / 3.0 * y * distance / (r * r * r * r);
+        }
+    const double area = std::max(top - sill, 0.0) * 2.0 * half_width;
+    return 100.0 * sum * area / (kSteps * kSteps) / (7.0 / 9.0 * std::numbers::pi);
+}
+
+TEST_P(Case513, TheOvercastSkyBelowACanopy)
+{
+    constexpr float kEndless = 2000.0f;  ///< width of the canopy [m]
+    std::vector<Quad> quads = room_with_window(false);
+    if (GetParam() > 0.0f)
+        quads.push_back(black({0.5f * (kWidth - kEndless), kHeight, kWidth}, {kEndless, 0, 0},
+                              {0, 0, GetParam()}));
+    const MeteredRoom room(quads, 0.0f, [&](Scene& scene) {
+        scene.sky = image_of({.type = 16, .lux = kLux, .sun = kSun});
+    });
+    const std::array<MeterPoint, 14> all = points();
+    for (std::size_t i = 0; i < 8; ++i) {
+        const double expected = below_a_canopy(3.75 - 0.5 * double(i), GetParam());
+        EXPECT_NEAR(room.read(all[6 + i], kRays).lux, expected, kPoint * expected + kRounding)
+            << char('G' + i);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Canopies, Case513, testing::Values(0.0f, 0.5f, 1.0f, 2.0f),
+                         [](const testing::TestParamInfo<float>& test) {
+                             return std::to_string(int(100.0f * test.param)) + "Centimetres";
+                         });
 
 /// A point of 1000 cd over the middle of a black floor: 3000 / d³.
 TEST(Case52, APointSource)
