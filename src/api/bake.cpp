@@ -167,12 +167,15 @@ std::vector<LampMap> maps_of_lamps(const BakedSolution& baked, Solver& solver, S
         return {};
     std::vector<LampMap> lamps;
     FinishedMaps maps = lamp_maps(baked.setting.prepared, baked.irradiance, found->light);
-    for (std::size_t k = 0; k < found->lamps.size(); ++k)
+    for (std::size_t k = 0; k < found->lamps.size(); ++k) {
+        const glm::dvec3 color = lamp_colour(found->light[k].irradiance);
         lamps.push_back({.name = found->lamps[k].name,
                          .kind = found->lamps[k].kind,
                          .members = found->lamps[k].members,
                          .map = map_of(std::move(maps.layers[k])),
-                         .error = found->light[k].error});
+                         .error = found->light[k].error,
+                         .color = {color.r, color.g, color.b}});
+    }
     return lamps;
 }
 

@@ -98,17 +98,6 @@ std::optional<AddedCamera> camera_of(const SolveScene& prepared)
     return camera_for(prepared, choose_view(prepared.scene, prepared.rays));
 }
 
-/// Mean colour of covered texels, its largest channel 1.
-glm::dvec3 mean_colour(const Image& map)
-{
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < map.values.size(); i += 4)
-        if (map.values[i + 3] > 0.0f)
-            sum += glm::dvec3(map.values[i], map.values[i + 1], map.values[i + 2]);
-    const double most = std::max({sum.r, sum.g, sum.b});
-    return most > 0.0 ? sum / most : glm::dvec3(1.0);
-}
-
 /// Lamps for a scene.glb. maps: of these lamps.
 std::vector<SceneLamp> scene_lamps(const std::vector<LampMap>& lamps,
                                    const std::vector<Image>& maps)
@@ -118,7 +107,7 @@ std::vector<SceneLamp> scene_lamps(const std::vector<LampMap>& lamps,
         found.push_back({.name = lamps[k].name,
                          .kind = lamps[k].kind,
                          .members = lamps[k].members,
-                         .color = mean_colour(maps[k]),
+                         .color = {lamps[k].color[0], lamps[k].color[1], lamps[k].color[2]},
                          .error = lamps[k].error,
                          .map = &maps[k]});
     return found;

@@ -8,8 +8,10 @@
 
 #include "../support/temporary_folder.h"
 #include "base/images/image_files.h"
+#include "base/json/json_file.h"
 #include "boxes.h"
 #include "jobs/bake/bake.h"
+#include "jobs/bake/lamp_maps.h"
 #include "scene/gltf/document.h"
 
 namespace lumel::v0 {
@@ -84,6 +86,21 @@ TEST(LampsOfABake, AddUpToItsMap)
     ASSERT_EQ(lamps.size(), 2u);
     EXPECT_EQ(lamps[0]["name"], "window");
     EXPECT_EQ(lamps[1]["error"], baked.lamps[1].error);
+
+    // Their colours are those of lumel bake --per-lamp.
+    BakeOptions options{.preview_width = 0};
+    options.atlas.size = 128;
+    options.solver.max_shots = 24;
+    options.solver.target_error = 0.0;
+    set_per_lamp(options, true, {});
+    lumel::bake(scene_path("room"), folder / "out", options);
+    const Json written = read_json(folder / "out/lamps.json")["lamps"];
+    for (std::size_t k = 0; k < lamps.size(); ++k) {
+        EXPECT_EQ(lamps[k]["color"], Json(baked.lamps[k].color));
+        EXPECT_EQ(lamps[k]["color"], written[k]["color"]);
+    }
+    EXPECT_NE(lamps[0]["color"], lamps[1]["color"]);
+
     apart.groups = {{"both", "*"}};
     const Baked joined = bake(scene, apart);
     ASSERT_EQ(joined.lamps.size(), 1u);

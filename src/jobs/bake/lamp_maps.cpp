@@ -94,8 +94,9 @@ double error_of_sum(const Image& whole, const std::vector<Image>& maps)
     return worst;
 }
 
-/// Colour of the light that a lamp gives to all lumels, its largest channel 1.
-glm::dvec3 colour_of(const std::vector<glm::vec3>& irradiance)
+}  // namespace
+
+glm::dvec3 lamp_colour(std::span<const glm::vec3> irradiance)
 {
     glm::dvec3 sum(0.0);
     for (const glm::vec3& light : irradiance)
@@ -103,8 +104,6 @@ glm::dvec3 colour_of(const std::vector<glm::vec3>& irradiance)
     const double most = std::max({sum.r, sum.g, sum.b});
     return most > 0.0 ? sum / most : glm::dvec3(1.0);
 }
-
-}  // namespace
 
 void set_per_lamp(BakeOptions& options, bool wanted, std::vector<LampGroup> groups)
 {
@@ -186,7 +185,7 @@ WrittenLamps write_lamps(const OutputFolder& folder, const BakeOptions& options,
             written.in_scene.emplace_back(SceneLamp{.name = lamp.name,
                                                     .kind = lamp.kind,
                                                     .members = lamp.members,
-                                                    .color = colour_of(lamps.light[k].irradiance),
+                                                    .color = lamp_colour(lamps.light[k].irradiance),
                                                     .error = lamps.light[k].error,
                                                     .map = &written.maps[k]});
         rows.push_back({{"name", listed.name},

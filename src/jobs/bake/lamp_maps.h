@@ -22,6 +22,9 @@ struct LampLights {
     std::vector<LinkRadiosity::LampLight> light;  ///< [lamps]
 };
 
+/// Colour of the light that a lamp gives to all lumels [N], its largest channel 1; white if none.
+glm::dvec3 lamp_colour(std::span<const glm::vec3> irradiance);
+
 /// Keeps lamps apart if that is wanted or there are groups. Throws Error{input} for a method other
 /// than links.
 void set_per_lamp(BakeOptions& options, bool wanted, std::vector<LampGroup> groups);
