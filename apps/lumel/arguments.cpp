@@ -2,6 +2,10 @@
 
 #include "arguments.h"
 
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
 #include "command.h"
 #include "manual.h"
 #include "parser.h"
@@ -14,6 +18,9 @@ constexpr const char* kVersion = "lumel " LUMEL_VERSION "\n";
 
 const Option kHelp{
     .names = "-h,--help", .help = "Print this help message and exit", .target = HelpFlag{}};
+
+constexpr std::string_view kEveryday[] = {"bake",    "view", "render", "report",
+                                          "measure", "info", "help"};
 
 void add_commands(Command& program)
 {
@@ -37,6 +44,7 @@ void add_commands(Command& program)
                         man_command(program),
                         options_command(program)};
     for (Command& command : program.commands) {
+        command.everyday = std::ranges::find(kEveryday, command.name) != std::end(kEveryday);
         command.options.insert(command.options.begin(), kHelp);
         command.options.front().group = kProgramGroup;
     }

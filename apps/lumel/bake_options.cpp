@@ -105,6 +105,8 @@ Command bake_command()
     const auto links = std::make_shared<GivenLinks>();
     BakeOptions& options = given->options;
     Command command{.name = "bake", .help = "Bake the light of a scene into lightmaps"};
+    command.everyday_options = {"--quality", "--size",     "--sky",  "--sun",
+                                "--time",    "--per-lamp", "--html", "--quiet"};
     command.add({scene_argument(given->scene), result_argument(given->folder)});
     add_light_options(command, options.lights);
     add_sky_directions_option(command, options);

@@ -59,6 +59,9 @@ struct Command {
     std::string footer;  ///< printed below --help; a tab separates columns
     bool listed = true;  ///< in --help and in docs/options.md
     std::vector<Command> commands;
+    bool everyday = false;  ///< above the other commands in --help of the program
+    /// Names of the options above all others in its --help, in this order.
+    std::vector<std::string> everyday_options;
 
     /// Adds options below a title; arguments have none.
     void add(const std::string& group, std::initializer_list<Option> added);

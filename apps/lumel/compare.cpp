@@ -1,12 +1,16 @@
 // lumel compare: how far one map is from another, in figures and as a picture.
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/core.h>
 
+#include "base/core/error.h"
 #include "base/images/image_files.h"
 #include "base/json/json_file.h"
 #include "commands.h"
+#include "results/record/bake_record.h"
 #include "truth/metrics.h"
 
 namespace lumel {
@@ -17,6 +21,38 @@ std::string default_heat_map(const CompareArguments& arguments)
 {
     const std::filesystem::path map = arguments.map, reference = arguments.reference;
     return map.parent_path() / (map.stem().string() + "-vs-" + reference.stem().string() + ".png");
+}
+
+struct RecordedScene {
+    std::string file, hash;
+};
+
+/// The scene of a map, by the report of the bake that wrote it; empty without one.
+std::optional<RecordedScene> scene_of(const std::string& map)
+{
+    const std::filesystem::path path = map;
+    const std::string report = (path.parent_path() / kReportFile).string();
+    if (!std::filesystem::exists(report))
+        return std::nullopt;
+    const Json json = read_json(report);
+    const JsonView view(report, json);
+    const auto scene = view.find("scene");
+    const auto files = json.find("files");
+    if (!scene || files == json.end() ||
+        std::ranges::find(*files, Json(path.filename().string())) == files->end())
+        return std::nullopt;
+    return RecordedScene{scene->get("file").string(), scene->get("hash").string()};
+}
+
+/// Refuses bakes of two scenes, unless their charts are the same: those of an edited scene.
+void check_scenes(const CompareArguments& arguments, const Image& map, const Image& reference)
+{
+    const std::optional<RecordedScene> one = scene_of(arguments.map);
+    const std::optional<RecordedScene> other = scene_of(arguments.reference);
+    if (one && other && one->hash != other->hash && !covers_the_same(map, reference))
+        throw Error(ErrorKind::input, arguments.map,
+                    "shows " + one->file + ", but " + arguments.reference + " " + other->file +
+                        ", with other charts: a texel of one is another place in the other");
 }
 
 void print_json(const MapError& error)
@@ -45,6 +81,7 @@ int run(const CompareArguments& arguments)
 {
     const Image map = read_exr(arguments.map);
     const Image reference = read_exr(arguments.reference);
+    check_scenes(arguments, map, reference);
     const MapError error = compare_maps(map, reference, arguments.most);
     const std::string picture =
         arguments.heat_map.empty() ? default_heat_map(arguments) : arguments.heat_map;

@@ -58,6 +58,16 @@ std::vector<std::string> groups_of(const Command& command)
     return groups;
 }
 
+std::vector<const Option*> everyday_options_of(const Command& command)
+{
+    std::vector<const Option*> found;
+    for (const std::string& name : command.everyday_options)
+        for (const Option* option : options_of(command))
+            if (const auto names = names_of(*option); std::ranges::find(names, name) != names.end())
+                found.push_back(option);
+    return found;
+}
+
 /// Text as a cell of a Markdown table.
 std::string cell(std::string_view text)
 {
@@ -107,14 +117,21 @@ std::string help_text(const Command& program, const Command& command)
             text += entry(spelling(*option), meaning_with_default(*option));
     };
     list("Arguments", arguments_of(command));
-    const std::vector<const Command*> commands = commands_of(command);
-    if (!commands.empty())
-        text += "\nCommands:\n";
-    for (const Command* one : commands)
-        text += entry(one->name, one->help);
+    for (const bool everyday : {true, false}) {
+        std::vector<const Command*> commands = commands_of(command);
+        std::erase_if(commands, [&](const Command* one) { return one->everyday != everyday; });
+        if (!commands.empty())
+            text += everyday ? "\nCommands:\n" : "\nMore commands:\n";
+        for (const Command* one : commands)
+            text += entry(one->name, one->help);
+    }
+    const std::vector<const Option*> everyday = everyday_options_of(command);
+    list("Everyday options", everyday);
     for (const std::string& title : groups_of(command)) {
         std::vector<const Option*> group = options_of(command);
-        std::erase_if(group, [&](const Option* option) { return option->group != title; });
+        std::erase_if(group, [&](const Option* option) {
+            return option->group != title || std::ranges::find(everyday, option) != everyday.end();
+        });
         list(title, group);
     }
     std::istringstream footer(command.footer);

@@ -43,6 +43,8 @@ std::size_t width_of(const WhySummary& summary, std::size_t count, std::size_t l
 std::string table_of(const WhySummary& summary)
 {
     std::string table = head_of(summary);
+    if (!summary.remark.empty())
+        table += summary.remark + "\n";
     if (summary.rows.empty())
         return table + "no light arrives there";
     const std::size_t count = std::min(summary.rows.size(), kWhyRows);

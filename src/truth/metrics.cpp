@@ -99,6 +99,16 @@ std::array<float, 3> heat(double level)
 
 }  // namespace
 
+bool covers_the_same(const Image& map, const Image& reference)
+{
+    if (map.width != reference.width || map.height != reference.height)
+        return false;
+    for (std::size_t texel = 0; texel < std::size_t(map.width) * map.height; ++texel)
+        if (covered(map, texel) != covered(reference, texel))
+            return false;
+    return true;
+}
+
 MapError compare_maps(const Image& map, const Image& reference, double most)
 {
     const Pairs pairs = pair_up(map, reference, most);

@@ -18,6 +18,9 @@ struct MapError {
     std::size_t texels = 0;  ///< compared
 };
 
+/// True if the maps have the same size, and alpha > 0 in the same texels.
+bool covers_the_same(const Image& map, const Image& reference);
+
 /// Excludes texels whose reference is above `most` in a channel: lamps in an image. Throws
 /// Error{input} if sizes differ or no texel is covered in both.
 MapError compare_maps(const Image& map, const Image& reference,

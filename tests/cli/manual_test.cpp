@@ -91,6 +91,34 @@ TEST(Manual, PageHoldsEveryCommandAndOption)
     }
 }
 
+/// Where a line of --help begins, or npos.
+std::size_t place_in(const std::string& help, const std::string& line)
+{
+    return help.find("\n" + line);
+}
+
+TEST(Manual, HelpBeginsWithWhatIsUsedEveryDay)
+{
+    const std::string program = run_lumel({"--help"}).out;
+    const std::size_t more = place_in(program, "More commands:");
+    ASSERT_NE(more, std::string::npos) << program;
+    for (const char* command : {"bake", "view", "report"})
+        EXPECT_LT(place_in(program, std::string("  ") + command + " "), more) << command;
+    for (const char* command : {"compare", "reference", "why"}) {
+        EXPECT_GT(place_in(program, std::string("  ") + command + " "), more) << command;
+        EXPECT_NE(place_in(program, std::string("  ") + command + " "), std::string::npos);
+    }
+
+    const std::string bake = run_lumel({"help", "bake"}).out;
+    const std::size_t everyday = place_in(bake, "Everyday options:");
+    const std::size_t device = place_in(bake, "Device and messages:");
+    EXPECT_LT(everyday, place_in(bake, "  --quality "));
+    EXPECT_LT(place_in(bake, "  --quality "), place_in(bake, "  --size "));
+    EXPECT_LT(place_in(bake, "  --size "), device);
+    EXPECT_LT(device, place_in(bake, "  --solver "));
+    EXPECT_EQ(bake.find("\n  --size "), bake.rfind("\n  --size ")) << "listed twice";
+}
+
 TEST(Completion, ScriptsAreWellFormed)
 {
     const Workplace place;

@@ -207,6 +207,24 @@ TEST(Messages, AHeatMapGoesBesideTheMapThatIsMeasured)
     EXPECT_FALSE(std::filesystem::exists("lightmap-vs-lightmap.png"));
 }
 
+TEST(Messages, MapsOfTwoScenesAreNotCompared)
+{
+    const Workplace place;
+    for (const char* scene : {"cornell-box", "room"})
+        ASSERT_EQ(run_lumel({"reference", own_scene(std::string(scene) + ".gltf"),
+                             place.path(scene), "--spp", "1", "--size", "96"})
+                      .code,
+                  0);
+    const std::string box = place.path("cornell-box/lightmap.exr");
+    const std::string room = place.path("room/lightmap.exr");
+    expect_one_sentence(run_lumel({"compare", box, room}), 2,
+                        {"shows cornell-box.gltf", "room.gltf", "other charts"});
+    EXPECT_FALSE(std::filesystem::exists(place.path("cornell-box/lightmap-vs-lightmap.png")));
+    // Maps without a record are compared.
+    const std::string alone = place.file("alone.exr", bytes_of(room));
+    EXPECT_EQ(run_lumel({"compare", box, alone}).code, 0);
+}
+
 TEST(Messages, TheSunIsRecordedAsItWasGivenAndCountsAsNoLamp)
 {
     const Workplace place;

@@ -52,6 +52,24 @@ TEST(Time, DoesNotEndABakeBeforeThereIsLight)
     EXPECT_EQ(solver.steps, SlowSolver::kDark);
 }
 
+TEST(Time, ThatWasTooShortForTheFirstLightIsAWarning)
+{
+    const ProgressFunction nobody;
+    const auto warnings = [&](double max_seconds) {
+        const LogCapture silence;
+        Stages stages(nobody);
+        SlowSolver solver;
+        solve_in_stage(solver, {.max_shots = 9, .max_seconds = max_seconds, .target_error = 0.0},
+                       stages);
+        return stages.warnings();
+    };
+    EXPECT_TRUE(warnings(100.0).empty());
+    EXPECT_TRUE(warnings(0.0).empty());
+    ASSERT_EQ(warnings(1e-9).size(), 1u);
+    EXPECT_EQ(warnings(1e-9)[0].find("the time limit of 1e-09 s was too short: the first light"),
+              0u);
+}
+
 TEST(Error, ThatWasMissedIsAWarning)
 {
     const ProgressFunction nobody;

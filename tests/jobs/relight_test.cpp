@@ -8,6 +8,7 @@
 #include "base/core/fingerprint.h"
 #include "base/core/frame.h"
 #include "base/core/luminance.h"
+#include "jobs/inspect/why.h"
 #include "jobs/solve/sources.h"
 #include "lights/light_sources.h"
 #include "methods/matrix/matrix_file.h"
@@ -303,6 +304,43 @@ TEST(Senders, AddUpToTheLightOfALumel)
     }
     EXPECT_TRUE(sky && lamp && surface);
     EXPECT_NEAR(found / solved, 1.0, 0.03);
+}
+
+TEST(Senders, StateABoundOfTheirNoise)
+{
+    Lit lit;
+    const SolveScene& world = lit.setting.prepared;
+    const std::vector<glm::vec3>& irradiance = lit.solution->irradiance;
+    constexpr std::uint32_t kSeeds = 24, kRays = 256;
+    double variance = 0.0, bound = 0.0;
+    for (std::uint32_t i = 0; i < irradiance.size(); i += 37) {
+        double sum = 0.0, squares = 0.0;
+        for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
+            const Senders senders =
+                find_senders(world, irradiance, i, {.rays = kRays, .seed = seed});
+            const double light = luminance(senders.light);
+            sum += light;
+            squares += light * light;
+            bound += senders.noise * senders.noise / kSeeds;
+        }
+        variance += (squares - sum * sum / kSeeds) / (kSeeds - 1);
+    }
+    // Samples are stratified, which lowers the noise, but not by ten.
+    EXPECT_LT(variance, bound);
+    EXPECT_GT(variance, bound / 100.0);
+}
+
+TEST(Why, HasASentenceIfRaysAndBakeDifferByMoreThanTheirErrors)
+{
+    EXPECT_EQ(remark_on_rays(0.50, 0.52, 0.01, 0.0), "");
+    EXPECT_EQ(remark_on_rays(0.50, 0.40, 0.0, 0.1), "");
+    const std::string remark = remark_on_rays(0.42, 0.02, 0.001, 0.05);
+    EXPECT_EQ(remark.find("rays find 0.048 times the light of the bake, more than noise explains"),
+              0u)
+        << remark;
+    EXPECT_EQ(remark_on_rays(0.0, 0.1, 0.001, 0.05).find("rays find light where the bake has none"),
+              0u);
+    EXPECT_EQ(remark_on_rays(0.0, 0.0, 0.0, 0.05), "");
 }
 
 /// A file beside the test program, gone when it ends.

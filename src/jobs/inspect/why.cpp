@@ -1,6 +1,7 @@
 #include "jobs/inspect/why.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -125,6 +126,8 @@ std::string report_of(const WhySummary& summary)
                      {"place", json_array(summary.place)},
                      {"irradiance", json_array(summary.solved)},
                      {"found", json_array(summary.found)}};
+    if (!summary.remark.empty())
+        json["remark"] = summary.remark;
     json["by_name"] = Json::array();
     for (const auto& [name, share] : summary.by_name)
         json["by_name"].push_back({{"name", name}, {"share", share}});
@@ -160,6 +163,18 @@ WhySummary summary_of(const SolveScene& prepared, std::uint32_t lumel, const Sen
 
 }  // namespace
 
+std::string remark_on_rays(double solved, double found, double noise, double error)
+{
+    constexpr double kSigmas = 3.0;  // of 370 normally distributed differences, one is larger
+    if (std::abs(found - solved) <= kSigmas * std::hypot(noise, error * solved))
+        return {};
+    return fmt::format(
+        "{}, more than noise explains: at an edge or beside other geometry, the "
+        "bake has the light of a part of the texel, and rays start all over it",
+        solved > 0.0 ? fmt::format("rays find {:.2g} times the light of the bake", found / solved)
+                     : "rays find light where the bake has none");
+}
+
 WhySummary why(const std::string& folder, const WhyOptions& options,
                const ProgressFunction& progress)
 {
@@ -179,6 +194,9 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
     summary.page = pages.at(glm::vec2(texel));
     summary.texel = texel - pages.corner(summary.page);
     summary.solved = irradiance[lumel];
+    summary.remark =
+        remark_on_rays(luminance(summary.solved), luminance(summary.found), senders.noise,
+                       std::max({bake.record.error, bake.record.dark_error, 0.0}));
     summary.report = report_of(summary);
     if (options.width > 0) {
         stages.begin("picture");

@@ -38,8 +38,13 @@ struct WhySummary {
     glm::vec3 found{0.0f};                                ///< Σ light of the rows [lx]
     std::vector<WhyRow> rows;                             ///< largest share first; shares sum to 1
     std::vector<std::pair<std::string, double>> by_name;  ///< shares, largest first
+    std::string remark;                                   ///< by remark_on_rays()
     std::string report;                                   ///< JSON
 };
+
+/// A sentence if the luminance that rays find differs from the bake's by more than both errors
+/// explain; else empty. noise: standard error of `found` [lx]; error: relative error of `solved`.
+std::string remark_on_rays(double solved, double found, double noise, double error);
 
 /// Analyses the folder of a bake. Writes why.png there: the scene with contributors coloured by
 /// their light at the lumel, and the lumel marked. Throws Error{input} if the folder has no

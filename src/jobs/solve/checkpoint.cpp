@@ -169,17 +169,20 @@ void Checkpoint::write(Solver& solver, const Run& given)
     next_ = now + std::max(every_, kRest * (now - start));
 }
 
-void Checkpoint::stop(Solver& solver, const Run& run)
+bool Checkpoint::stop(Solver& solver, const Run& run)
 {
     if (!can_)
-        return;
+        return false;
     if (resume_) {
         if (every_ > 0.0)
             write(solver, run);
-    } else if (!older_) {
+        return every_ > 0.0;
+    }
+    if (!older_) {
         std::error_code ignored;
         fs::remove(path_, ignored);
     }
+    return false;
 }
 
 }  // namespace lumel

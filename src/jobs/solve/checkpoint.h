@@ -37,9 +37,9 @@ public:
     /// Writes a checkpoint if one is due. On failure, warns and keeps the previous one. Without
     /// --resume it replaces another bake's checkpoint only after solving for longer than that.
     void keep(Solver& solver, const Run& run);
-    /// For a solve stopped by the user: keeps the checkpoint with --resume; otherwise removes it,
-    /// unless it existed before this bake.
-    void stop(Solver& solver, const Run& run);
+    /// For a solve stopped by the user: keeps the checkpoint with --resume, and then returns true;
+    /// otherwise removes it, unless it existed before this bake.
+    bool stop(Solver& solver, const Run& run);
 
 private:
     /// Identity of the work.

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "atlas/prepare/lit_sides.h"
+#include "base/core/error.h"
 #include "base/core/log.h"
 #include "jobs/solve/checkpoint.h"
 #include "jobs/solve/memory_plan.h"
@@ -174,10 +176,23 @@ void tell_missed(const SolverOptions& options, const SolverState& state, Stages&
          "visible noise");
 }
 
+void tell_late(const SolverOptions& options, double before_solving, double first_light,
+               Stages& stages)
+{
+    if (options.max_seconds <= 0.0 || first_light <= options.max_seconds)
+        return;
+    stages.warn(fmt::format(
+        "the time limit of {:g} s was too short: the first light of all lumels was "
+        "there after {:.3g} s, {:.3g} s of them before solving; the result has as few "
+        "{} as possible",
+        options.max_seconds, first_light, before_solving, method_of(options.method).shots));
+}
+
 SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stages,
                         Checkpoint* checkpoint)
 {
     const SolverOptions options = for_what_is_left(given, stages);
+    const double before_solving = stages.seconds();
     stages.begin("solving");
     stages.note_arrays();
     Checkpoint::Run so_far;
@@ -189,7 +204,10 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stag
         limits.max_seconds = std::max(limits.max_seconds - before, kMinSeconds);
     ErrorNotes errors(options);
     SolveRun run;
+    std::optional<double> first_light;  // [s] from the first stage on
     run.finished = solve(solver, limits, [&](const SolverState& state) {
+        if (state.shots > 0 && !first_light)
+            first_light = stages.seconds();
         errors.add(state, stages);
         so_far.seconds = before + stages.stage_seconds();
         std::vector<ConvergencePoint>& curve = so_far.curve;
@@ -200,11 +218,16 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stag
         return stages.progress(solved_fraction(options, state, so_far.seconds), state.shots,
                                state.error);
     });
-    if (!run.finished && checkpoint)
-        checkpoint->stop(solver, so_far);
+    const bool kept = !run.finished && checkpoint && checkpoint->stop(solver, so_far);
     run.curve = std::move(so_far.curve);
-    if (!run.finished && solver.state().shots == 0)
-        throw_stopped();
+    if (const SolverState state = solver.state(); !run.finished && state.shots == 0)
+        throw Error(
+            ErrorKind::stopped, "",
+            fmt::format("stopped before the first result, with {:.0f} % of the first light of "
+                        "all lumels; nothing is written{}",
+                        100.0 * state.begun, kept ? " but the checkpoint" : ""));
+    if (run.finished && first_light)
+        tell_late(given, before_solving, *first_light, stages);
     if (solver.state().full)
         stages.warn(
             fmt::format("no memory for more rays: the solve ends at an estimated error of {}; "

@@ -63,6 +63,11 @@ SolverOptions for_what_is_left(SolverOptions options, const Stages& stages);
 /// Warns if a shot or time limit ended the solve before its target error.
 void tell_missed(const SolverOptions& options, const SolverState& state, Stages& stages);
 
+/// Warns if the time limit was over before the first light of all lumels. before_solving,
+/// first_light: since the first stage began [s].
+void tell_late(const SolverOptions& options, double before_solving, double first_light,
+               Stages& stages);
+
 /// Runs a solver up to its limits, as the stage "solving". checkpoint: read and written; or null.
 SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages,
                         Checkpoint* checkpoint = nullptr);

@@ -57,6 +57,22 @@ struct Sum {
     }
 };
 
+/// Luminance of equally weighted samples.
+struct Moments {
+    double sum = 0.0, squares = 0.0;
+    void add(double value)
+    {
+        sum += value;
+        squares += value * value;
+    }
+    /// Square of the standard error of the mean of `count` samples; what was not added is 0.
+    double variance_of_mean(double count) const
+    {
+        const double mean = sum / count;
+        return std::max(squares / count - mean * mean, 0.0) / count;
+    }
+};
+
 class SenderSearch {
 public:
     SenderSearch(const SolveScene& scene, std::span<const glm::vec3> irradiance,
@@ -90,6 +106,7 @@ public:
                          [](const Contributor& a, const Contributor& b) {
                              return luminance(a.light) > luminance(b.light);
                          });
+        senders.noise = std::sqrt(variance_ + ray_light_.variance_of_mean(options_.rays));
         senders.density = density();
         return senders;
     }
@@ -126,7 +143,9 @@ private:
         RayHit hit;
         if (!rays_.closest(point.position, direction, 0.0f, kFar, samples.bits(kSenderSeedPair),
                            hit)) {
-            sky_ += share * kPi * hit.tint * sky_radiance(scene_.sky, direction);
+            const glm::vec3 light = kPi * hit.tint * sky_radiance(scene_.sky, direction);
+            ray_light_.add(luminance(light));
+            sky_ += share * light;
             return;
         }
         const std::uint32_t met = hits_.lumel(hit);
@@ -134,6 +153,7 @@ private:
             met == HitLumels::kNone ? glm::vec3(0.0f) : share * hit.tint * sent_by(met);
         if (light == glm::vec3(0.0f))
             return;
+        ray_light_.add(luminance(light) / share);
         const WorldLumel& there = world_[met];
         const Mesh& mesh = scene_.meshes[std::size_t(scene_.instances[hit.instance].mesh)];
         surfaces_[place_of(hit.instance, there.centre, there.normal)].add(
@@ -150,7 +170,7 @@ private:
                 .light = sum.light};
     }
 
-    void add_lamps(Senders& senders) const
+    void add_lamps(Senders& senders)
     {
         for (std::size_t l = 0; l < lamps_.count(); ++l) {
             const glm::vec3 light = light_of(l);
@@ -166,18 +186,23 @@ private:
         }
     }
 
-    glm::vec3 light_of(std::size_t lamp) const
+    glm::vec3 light_of(std::size_t lamp)
     {
         glm::vec3 sum(0.0f);
+        Moments moments;
         for (std::uint32_t k = 0; k < kLampPoints; ++k) {
             const PathSamples samples(options_.seed, k);
             const LumelPoint point = start(samples);
             const RayOrigin origin = origin_at(point.position, point.normal);
             const SourceSample sample =
                 lamps_.sample(lamp, origin, samples.stratified(kSenderDirectionPair));
-            sum += transmittance_to(rays_, sample, origin, samples.bits(kSenderSeedPair)) *
-                   sample.irradiance;
+            const glm::vec3 light =
+                transmittance_to(rays_, sample, origin, samples.bits(kSenderSeedPair)) *
+                sample.irradiance;
+            sum += light;
+            moments.add(luminance(light));
         }
+        variance_ += moments.variance_of_mean(kLampPoints);
         return sum / float(kLampPoints);
     }
 
@@ -213,6 +238,8 @@ private:
     float cell_;  ///< side [m]
     std::map<Place, Sum> surfaces_;
     glm::vec3 sky_{0.0f};
+    Moments ray_light_;      ///< of surfaces and sky, per ray [lx]
+    double variance_ = 0.0;  ///< of the light of lamps [lx²]
 };
 
 }  // namespace

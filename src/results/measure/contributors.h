@@ -29,6 +29,8 @@ struct Senders {
     std::vector<Contributor> list;  ///< by decreasing luminance
     std::vector<float> density;     ///< [N] luminance of a lumel's contributor per area [lx/m²]
     glm::vec3 light{0.0f};          ///< total [lx]
+    /// Standard error of its luminance [lx], as if samples were not stratified: an upper bound.
+    double noise = 0.0;
 };
 
 /// Traces rays from a lumel: surfaces hit send E + ρH, with H [N] [lx]; lamps are sampled
