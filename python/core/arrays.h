@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lumel/lumel.h>
@@ -102,6 +103,25 @@ py::array_t<T> view_of(const std::vector<T>& values, const py::handle& owner)
 inline py::array_t<float> view_of(const lumel::Map& map, const py::handle& owner)
 {
     return view_of(map.rgba.data(), {map.height, map.width, 4}, owner);
+}
+
+/// An array that owns the map's memory.
+inline py::array_t<float> array_with(lumel::Map map)
+{
+    auto* const kept = new lumel::Map(std::move(map));
+    const py::capsule owner(kept, [](void* memory) { delete static_cast<lumel::Map*>(memory); });
+    return view_of(*kept, owner);
+}
+
+/// A number for all channels, or one for each.
+inline lumel::Vec3 factor_of(const py::object& factor)
+{
+    const auto values = contiguous<float>({factor, "factor"});
+    if (values.ndim() == 0)
+        return {*values.data(), *values.data(), *values.data()};
+    if (values.ndim() != 1 || values.size() != 3)
+        throw py::value_error("factor must be a number or 3 numbers");
+    return {values.at(0), values.at(1), values.at(2)};
 }
 
 /// A getter that returns a view of a member.

@@ -98,6 +98,19 @@ void add_surface(py::module_& module)
                                "(V,) index into the pages; empty if there is one page.");
 }
 
+void add_device_info(py::module_& module)
+{
+    using lumel::DeviceInfo;
+    py::class_<DeviceInfo>(module, "DeviceInfo", "A Vulkan device of this machine.")
+        .def_readonly("name", &DeviceInfo::name)
+        .def_readonly("type", &DeviceInfo::type)
+        .def_readonly("api_version", &DeviceInfo::api_version)
+        .def_readonly("driver", &DeviceInfo::driver)
+        .def_readonly("memory_bytes", &DeviceInfo::memory_bytes)
+        .def_readonly("usable", &DeviceInfo::usable)
+        .def_readonly("reason", &DeviceInfo::reason, "Why it is not usable, else empty.");
+}
+
 py::dict lamps_of(const py::object& self)
 {
     py::dict maps;
@@ -142,6 +155,7 @@ void add_baked(py::module_& module)
         .def_readonly("shots", &Baked::shots)
         .def_readonly("seconds", &Baked::seconds)
         .def_readonly("interrupted", &Baked::interrupted, "Ended by progress.")
+        .def_readonly("relightable", &Baked::relightable, "True if Relight can use it.")
         .def_property_readonly(
             "notes", [](const Baked& baked) { return in_python(baked.notes); },
             "Messages for the user.");
@@ -153,13 +167,21 @@ void add_bake(py::module_& module)
 {
     add_surface(module);
     add_baked(module);
+    add_device_info(module);
     py::class_<lumel::Device>(module, "Device", "A Vulkan device.")
         .def(py::init([](const std::string& pick) {
                  return result_of<lumel::Device>([&] { return lumel::Device(pick); });
              }),
              "pick: index or part of a name; empty: the best.", py::arg("pick") = "")
         .def_property_readonly("name",
-                               [](const lumel::Device& device) { return device.info().name; });
+                               [](const lumel::Device& device) { return device.info().name; })
+        .def_property_readonly("info", &lumel::Device::info, py::return_value_policy::copy);
+    module.def(
+        "list_devices",
+        [] {
+            return result_of<std::vector<lumel::DeviceInfo>>([] { return lumel::list_devices(); });
+        },
+        "All Vulkan devices of this machine.");
     module.def("bake", &bake, "Returns the lightmap of a scene; settings as in lumel.h.",
                py::arg("scene"), py::kw_only(), py::arg("device") = py::none(),
                py::arg("progress") = py::none());

@@ -1,6 +1,5 @@
 // Light that is kept up to date while objects and lamps move.
 
-#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -9,6 +8,7 @@
 
 #include "arrays.h"
 #include "calls.h"
+#include "live.h"
 #include "module.h"
 #include "settings.h"
 
@@ -17,28 +17,6 @@ namespace {
 
 using lumel::LiveLinks;
 using lumel::LiveLinksState;
-
-/// Time between two checks for Ctrl-C [ms]: too short for a person to notice.
-constexpr double kSlice = 100.0;
-
-/// An array that owns the map's memory.
-py::array_t<float> array_with(lumel::Map map)
-{
-    auto* const kept = new lumel::Map(std::move(map));
-    const py::capsule owner(kept, [](void* memory) { delete static_cast<lumel::Map*>(memory); });
-    return view_of(*kept, owner);
-}
-
-/// A number for all channels, or one for each.
-lumel::Vec3 factor_of(const py::object& factor)
-{
-    const auto values = contiguous<float>({factor, "factor"});
-    if (values.ndim() == 0)
-        return {*values.data(), *values.data(), *values.data()};
-    if (values.ndim() != 1 || values.size() != 3)
-        throw py::value_error("factor must be a number or 3 numbers");
-    return {values.at(0), values.at(1), values.at(2)};
-}
 
 LiveLinks make(const lumel::Scene& scene, const py::kwargs& given)
 {
@@ -75,19 +53,9 @@ void set_color(LiveLinks& live, const std::string& material, const lumel::Vec3& 
     call([&] { live.set_color(material, color); });
 }
 
-LiveLinksState update(LiveLinks& live, double budget_ms)
+double bake(LiveLinks& live, double error)
 {
-    return result_of<LiveLinksState>([&] {
-        LiveLinksState state;
-        double spent = 0.0;
-        do {
-            state = live.update(std::min(kSlice, budget_ms - spent));
-            spent += state.milliseconds;
-            check_signals();
-        } while (!state.at_rest && spent < budget_ms);
-        state.milliseconds = spent;
-        return state;
-    });
+    return result_of<double>([&] { return live.bake(error); });
 }
 
 void add_state(py::module_& module)
@@ -116,14 +84,25 @@ void add_live_links(py::module_& module)
         .def("set_sky", &set_sky, "Scales the sky, relative to the scene.", py::arg("factor"))
         .def("set_color", &set_color, "Sets the base colour of a material.", py::arg("material"),
              py::arg("color"))
-        .def("update", &update, "Runs for about this time, by default until converged.",
+        .def("update", &update_in_slices<LiveLinks, LiveLinksState>,
+             "Runs for about this time, by default until converged.",
              py::arg("budget_ms") = std::numeric_limits<double>::infinity())
+        .def("bake", &bake, "Solves to this estimated relative error; returns that reached.",
+             py::arg("error") = 0.02)
+        .def_property_readonly("state", &LiveLinks::state, "After the last update().",
+                               py::return_value_policy::copy)
         .def(
             "map",
             [](const LiveLinks& live) {
                 return array_with(result_of<lumel::Map>([&] { return live.map(); }));
             },
             "(height, width, 4), as Baked.map; a new array.")
+        .def(
+            "lumels",
+            [](const LiveLinks& live) {
+                return array_with(result_of<lumel::Map>([&] { return live.lumels(); }));
+            },
+            "(height, width, 4) without gutters and seams, in little time; a new array.")
         .def_property_readonly("surfaces", &LiveLinks::surfaces)
         .def_property_readonly(
             "notes", [](const LiveLinks& live) { return in_python(live.notes()); },

@@ -16,5 +16,7 @@ PYBIND11_MODULE(_core, module)
     lumel_python::add_calls(module);
     lumel_python::add_scene(module);
     lumel_python::add_bake(module);
+    lumel_python::add_live_scene(module);
     lumel_python::add_live_links(module);
+    lumel_python::add_relight(module);
 }

@@ -65,6 +65,12 @@ lumel::AtlasSettings take_atlas(py::dict& settings)
     return atlas;
 }
 
+void take_movers(py::dict& settings, std::vector<std::uint32_t>& to)
+{
+    if (const Argument movers = removed(settings, "movers"); !movers.value.is_none())
+        to = all_of(movers, &value_of<std::uint32_t>);
+}
+
 /// Throws TypeError if settings are left.
 void refuse_rest(const py::dict& settings, const char* function)
 {
@@ -108,13 +114,28 @@ lumel::BakeSettings bake_settings(const py::kwargs& given)
     return bake;
 }
 
+lumel::LiveSettings live_settings(const py::kwargs& given)
+{
+    using lumel::Redistribution;
+    py::dict settings(given);
+    lumel::LiveSettings live;
+    live.atlas = take_atlas(settings);
+    take_movers(settings, live.movers);
+    take_word<Redistribution>(
+        settings, "redistribution", live.redistribution,
+        {{"incremental", Redistribution::incremental}, {"cross", Redistribution::cross}});
+    take(settings, "seed", live.seed);
+    take(settings, "residual", live.residual);
+    refuse_rest(settings, "LiveScene");
+    return live;
+}
+
 lumel::LiveLinksSettings live_links_settings(const py::kwargs& given)
 {
     py::dict settings(given);
     lumel::LiveLinksSettings live;
     live.atlas = take_atlas(settings);
-    if (const Argument movers = removed(settings, "movers"); !movers.value.is_none())
-        live.movers = all_of(movers, &value_of<std::uint32_t>);
+    take_movers(settings, live.movers);
     take(settings, "rays", live.rays);
     take(settings, "filter", live.filter);
     take(settings, "seed", live.seed);

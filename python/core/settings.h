@@ -7,6 +7,7 @@
 namespace lumel_python {
 
 lumel::BakeSettings bake_settings(const pybind11::kwargs& given);
+lumel::LiveSettings live_settings(const pybind11::kwargs& given);
 lumel::LiveLinksSettings live_links_settings(const pybind11::kwargs& given);
 
 }  // namespace lumel_python

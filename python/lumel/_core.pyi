@@ -2,12 +2,12 @@
 
 All calls, and reading a Scene, block until they are done, use all cores, and run one at a time. They raise Error;
 ValueError and TypeError for arguments of the wrong shape, range or type; and whatever a progress function raises.
-bake() and LiveLinks.update() check for Ctrl-C, the others once they are done.
+bake(), LiveLinks.update() and LiveScene.update() check for Ctrl-C, the others once they are done.
 """
 
 import os
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, Literal, Optional, Union
+from typing import Any, Literal, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -46,6 +46,32 @@ class Progress:
     def seconds(self) -> float:
         """Since the stage began."""
 
+class DeviceInfo:
+    """A Vulkan device of this machine."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def type(self) -> str:
+        """"discrete", "integrated", "virtual", "cpu" or "other"."""
+    @property
+    def api_version(self) -> str:
+        """Such as "1.3.230"."""
+    @property
+    def driver(self) -> str:
+        """Name and version."""
+    @property
+    def memory_bytes(self) -> int:
+        """Size of the largest device-local heap."""
+    @property
+    def usable(self) -> bool: ...
+    @property
+    def reason(self) -> str:
+        """Why the device is not usable, else empty."""
+
+def list_devices() -> list[DeviceInfo]:
+    """All Vulkan devices of this machine, as `lumel devices` lists them."""
+
 class Device:
     """A Vulkan device, for methods other than "links", rays on a GPU and directional maps."""
 
@@ -53,6 +79,8 @@ class Device:
         """pick: index or part of a name, as `lumel devices` lists; empty: the best."""
     @property
     def name(self) -> str: ...
+    @property
+    def info(self) -> DeviceInfo: ...
 
 class Scene:
     """A checked scene. Its arrays are copied."""
@@ -145,6 +173,9 @@ class Baked:
     def interrupted(self) -> bool:
         """Ended by progress."""
     @property
+    def relightable(self) -> bool:
+        """True if Relight can use it: method "matrix", all parts."""
+    @property
     def notes(self) -> list[str]: ...
 
 def bake(scene: Scene, *, device: Optional[Device] = None, progress: Optional[Callable[[Progress], Any]] = None,
@@ -210,9 +241,85 @@ class LiveLinks:
     def set_color(self, material: str, color: Vector) -> None: ...
     def update(self, budget_ms: float = ...) -> LiveLinksState:
         """Runs for about this time; by default until the light has converged."""
+    @property
+    def state(self) -> LiveLinksState:
+        """After the last update()."""
+    def bake(self, error: float = 0.02) -> float:
+        """Solves the scene as it is now to this estimated relative error, as bake() does, and returns that reached.
+        map() and lumels() then have this light until the next change."""
     def map(self) -> _Floats:
         """(height, width, 4), as Baked.map; a new array."""
+    def lumels(self) -> _Floats:
+        """(height, width, 4) irradiance [lx] without gutters and seams, in little time, and 1 where a lumel is; of two
+        sides in one texel, the front. A new array."""
     @property
     def surfaces(self) -> list[Surface]: ...
     @property
     def notes(self) -> list[str]: ...
+
+class LiveState:
+    @property
+    def residual(self) -> float:
+        """Unshot light relative to all light."""
+    @property
+    def under_way(self) -> bool:
+        """A move is not completely redistributed yet."""
+    @property
+    def at_rest(self) -> bool: ...
+    @property
+    def milliseconds(self) -> float: ...
+
+class LiveScene:
+    """Keeps a scene lit while instances move and lamps change, by shooting on a GPU."""
+
+    def __init__(self, device: Device, scene: Scene, *, movers: Optional[Iterable[int]] = None,
+                 redistribution: Optional[Literal["incremental", "cross"]] = None, seed: Optional[int] = None,
+                 residual: Optional[float] = None, texels_per_metre: Optional[float] = None,
+                 size: Optional[int] = None, max_size: Optional[int] = None, gutter: Optional[int] = None,
+                 pages: Optional[int] = None, sides: Optional[_Sides] = None,
+                 densities: Optional[Mapping[str, float]] = None, coarse_afar: Optional[bool] = None) -> None:
+        """movers: movable instances. Settings are those of LiveSettings and AtlasSettings in lumel.h; None stands for
+        the default. The light is computed by update()."""
+    def move(self, instance: int, transform: ArrayLike) -> None:
+        """(4, 4), mesh to world, for columns; a rigid motion. update() applies it."""
+    def set_emission(self, instance: int, factor: _Factor) -> None:
+        """Scales the emission of an instance relative to the scene."""
+    def set_reflectance(self, instance: int, factor: _Factor) -> None:
+        """Scales the reflectance of an instance relative to the scene; the result is clamped to 0 to 1."""
+    def set_light(self, light: int, factor: _Factor) -> None:
+        """Scales a light, an index into Scene.lights."""
+    def set_sky(self, factor: _Factor) -> None: ...
+    def update(self, budget_ms: float = ...) -> LiveState:
+        """Applies moves, then shoots for about this time; by default until the light has converged."""
+    @property
+    def state(self) -> LiveState:
+        """After the last update()."""
+    def map(self) -> _Floats:
+        """(height, width, 4), as Baked.map, after the last move that is completely redistributed; a new array."""
+    @property
+    def surfaces(self) -> list[Surface]: ...
+    @property
+    def notes(self) -> list[str]: ...
+
+class Relight:
+    """A baked scene under any light, by one matrix product. All factors are initially 1."""
+
+    @overload
+    def __init__(self, device: Device, baked: Baked) -> None:
+        """Of a bake with method "matrix"."""
+    @overload
+    def __init__(self, device: Device, path: _Path) -> None:
+        """Of scene.lumelmat, written by save() or `lumel bake --solver matrix`. Its maps have filled gutters; seams and
+        buried texels are not corrected."""
+    @property
+    def lights(self) -> list[str]:
+        """Names of the sources: lights, emissive instances, "sky"."""
+    def set_light(self, name: str, factor: _Factor) -> None:
+        """Scales a source, or all emission of a material of this name, relative to the bake."""
+    def move_light(self, name: str, *, position: Optional[Vector] = None,
+                   direction: Optional[Vector] = None) -> None:
+        """Moves or turns a lamp; what is left out is as baked. Not for a file, which has no scene."""
+    def map(self) -> _Floats:
+        """(height, width, 4), as Baked.map, for the current factors and lamp positions; a new array."""
+    def save(self, path: _Path) -> None:
+        """Writes scene.lumelmat."""

@@ -351,6 +351,114 @@ class Live(unittest.TestCase):
         live.move_lamp("lamp", position=np.array([0, 1, 0]))
         self.assertAlmostEqual(self.lit(live), 100, delta=2)
 
+    def test_a_bake_of_live_light(self) -> None:
+        """A closed room has the irradiance E / (1 - ρ)."""
+        live = lumel.LiveLinks(cube(glowing(0.5)), size=32)
+        self.assertLessEqual(live.bake(0.01), 0.01)
+        lit = live.lumels()
+        lit = lit[lit[..., 3] == 1][:, :3]
+        np.testing.assert_allclose(lit.mean(axis=0), np.pi * np.array([1, 2, 3]) / 0.5, rtol=0.01)
+        self.assertEqual(live.update().at_rest, live.state.at_rest)
+
+
+class Pages(unittest.TestCase):
+    def test_a_page_is_a_view(self) -> None:
+        map = np.arange(4 * 6 * 4, dtype=np.float32).reshape(4, 6, 4)
+        page = lumel.cut_page(map, (4, 2, 2))
+        np.testing.assert_array_equal(page, [[map[2, 4], map[2, 5]], [map[3, 4], map[3, 5]]])
+        self.assertTrue(np.shares_memory(page, map))
+        for outside in ((5, 2, 2), (4, 3, 2), (-1, 0, 2), (0, 0, 0)):
+            with self.assertRaisesRegex(ValueError, "is not inside a map of the shape"):
+                lumel.cut_page(map, outside)
+
+    def test_pages_of_a_bake_hold_all_light(self) -> None:
+        baked = coarse(lumel.Scene.load(CORNELL_BOX), size=64, max_size=32, pages=4)
+        self.assertEqual(len(baked.pages), 4)
+        pages = [lumel.cut_page(baked.map, page) for page in baked.pages]
+        self.assertAlmostEqual(float(sum(page.sum() for page in pages)) / float(baked.map.sum()), 1, places=5)
+
+
+def usable_devices() -> list[lumel.DeviceInfo]:
+    try:
+        return [device for device in lumel.list_devices() if device.usable]
+    except lumel.Error:
+        return []
+
+
+@unittest.skipUnless(usable_devices(), "there is no usable Vulkan device")
+class Devices(unittest.TestCase):
+    def test_devices_are_those_of_the_program(self) -> None:
+        listed = subprocess.run([os.environ["LUMEL"], "devices"], check=True, capture_output=True, text=True).stdout
+        for device in lumel.list_devices():
+            self.assertIn(device.name, listed)
+            self.assertEqual(device.usable, device.reason == "")
+            self.assertGreater(device.memory_bytes, 0)
+        info = lumel.Device().info
+        self.assertIn(info.name, [device.name for device in usable_devices()])
+        self.assertRegex(info.api_version, r"^1\.\d+\.\d+$")
+
+    def test_a_live_scene_follows_emission_and_lights(self) -> None:
+        """Light is linear in its sources."""
+        live = lumel.LiveScene(lumel.Device(), cube(glowing(0.5)), size=32, residual=0.0001)
+        self.assertTrue(live.update().at_rest)
+        before = live.map()
+        lit = before[before[..., 3] > 0][:, :3]
+        np.testing.assert_allclose(lit.mean(axis=0), np.pi * np.array([1, 2, 3]) / 0.5, rtol=0.05)
+        live.set_emission(0, (2, 1, 0))
+        live.update()
+        self.assertTrue(live.state.at_rest)
+        changed = live.map()[before[..., 3] > 0][:, :3]
+        np.testing.assert_allclose(changed.mean(axis=0), lit.mean(axis=0) * [2, 1, 0], rtol=1e-3,
+                                   atol=1e-3 * float(before.max()))
+        with self.assertRaisesRegex(TypeError, r'LiveScene\(\) has no setting "rays"'):
+            make: Any = lumel.LiveScene
+            make(lumel.Device(), cube(glowing(0.5)), rays=16)
+
+    def test_an_object_of_a_live_scene_moves(self) -> None:
+        scene = ground(lumel.Instance(name="lid", transform=above(0.5)),
+                       lights=[lumel.Light("directional", intensity=1000)])
+        live = lumel.LiveScene(lumel.Device(), scene, size=64, sides="front", movers=[scene.find_instance("lid")])
+        live.update()
+        shaded = self.middle(live)
+        live.move(1, above(0.5, x=5))
+        live.update()
+        self.assertLess(shaded, 0.1 * self.middle(live))
+        self.assertAlmostEqual(self.middle(live), 1000, delta=50)
+        live.set_light(0, 0.5)
+        live.update()
+        self.assertAlmostEqual(self.middle(live), 500, delta=25)
+
+    def middle(self, live: lumel.LiveScene) -> float:
+        """Irradiance [lx] at the centre of the ground."""
+        surface = live.surfaces[0]
+        light = live.map()
+        x, y = (surface.lightmap.mean(axis=0) * (light.shape[1], light.shape[0])).astype(int)
+        return float(light[y, x, 1])
+
+    def test_a_baked_scene_under_other_light(self) -> None:
+        device = lumel.Device()
+        scene = lumel.Scene.load(CORNELL_BOX)
+        baked = lumel.bake(scene, device=device, method="matrix", options={"patches": "200"}, size=32)
+        self.assertTrue(baked.relightable)
+        relight = lumel.Relight(device, baked)
+        lights = relight.lights
+        self.assertEqual(lights, ["light"])
+        as_baked = relight.map()
+        np.testing.assert_allclose(as_baked.mean(), baked.map.mean(), rtol=0.02)
+        relight.set_light("light", (0.5, 1, 0))
+        dimmed = relight.map()
+        np.testing.assert_allclose(dimmed[..., :3], as_baked[..., :3] * [0.5, 1, 0], rtol=1e-4, atol=1e-4)
+        with self.assertRaisesRegex(lumel.Error, "light"):
+            relight.set_light("toaster", 0)
+        with tempfile.TemporaryDirectory() as folder:
+            relight.save(pathlib.Path(folder) / "scene.lumelmat")
+            again = lumel.Relight(device, pathlib.Path(folder) / "scene.lumelmat")
+            self.assertEqual(again.lights, lights)
+            lit = again.map()
+            np.testing.assert_allclose(lit[lit[..., 3] > 0].mean(), as_baked[as_baked[..., 3] > 0].mean(), rtol=0.1)
+        with self.assertRaisesRegex(lumel.Error, "matrix"):
+            lumel.Relight(device, coarse(scene))
+
 
 if __name__ == "__main__":
     unittest.main()
