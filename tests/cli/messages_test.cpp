@@ -97,6 +97,8 @@ TEST(Messages, ATimeThatIsOverAtOnceStillLeavesLight)
     const Outcome bake = run_lumel(small_bake(place.path("out"), {"--time", "0.001"}));
     ASSERT_EQ(bake.code, 0) << bake.err;
     EXPECT_GT(report_in(place)["solution"]["shots"], 0);
+    EXPECT_TRUE(has(bake.err, "0.001 s was too short: the first light of all lumels was there"))
+        << bake.err;
     const Image map = read_exr(place.path("out/lightmap.exr"));
     EXPECT_GT(*std::max_element(map.values.begin(), map.values.end()), 1.0f);
 }
