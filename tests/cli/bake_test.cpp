@@ -261,9 +261,10 @@ TEST(Bake, CtrlCBeforeThereIsLightLeavesWhatWasThere)
         const Outcome bake = run_lumel(arguments, {.interrupt_at = work.stage});
         EXPECT_EQ(bake.code, 130) << bake.err;
         EXPECT_NE(bake.err.find("nothing is written"), std::string::npos) << bake.err;
-        if (work.stage == "solving")
+        if (work.stage == "solving") {
             EXPECT_NE(bake.err.find("% of the first light of all lumels"), std::string::npos)
                 << bake.err;
+        }
         EXPECT_EQ(place.listing(), inside("out"));
         EXPECT_EQ(bytes_of(place.path("out/lightmap.exr")), before);
     }
