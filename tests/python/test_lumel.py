@@ -372,7 +372,7 @@ class Pages(unittest.TestCase):
                 lumel.cut_page(map, outside)
 
     def test_pages_of_a_bake_hold_all_light(self) -> None:
-        baked = coarse(lumel.Scene.load(CORNELL_BOX), size=64, max_size=32, pages=4)
+        baked = coarse(lumel.Scene.load(CORNELL_BOX), size=32, pages=4)
         self.assertEqual(len(baked.pages), 4)
         pages = [lumel.cut_page(baked.map, page) for page in baked.pages]
         self.assertAlmostEqual(float(sum(page.sum() for page in pages)) / float(baked.map.sum()), 1, places=5)
@@ -410,6 +410,11 @@ class Devices(unittest.TestCase):
         changed = live.map()[before[..., 3] > 0][:, :3]
         np.testing.assert_allclose(changed.mean(axis=0), lit.mean(axis=0) * [2, 1, 0], rtol=1e-3,
                                    atol=1e-3 * float(before.max()))
+        live.set_emission(0, 1)
+        live.set_reflectance(0, 0)
+        live.update()
+        direct = live.map()[before[..., 3] > 0][:, :3]
+        np.testing.assert_allclose(direct.mean(axis=0), np.pi * np.array([1, 2, 3]), rtol=0.05)
         with self.assertRaisesRegex(TypeError, r'LiveScene\(\) has no setting "rays"'):
             make: Any = lumel.LiveScene
             make(lumel.Device(), cube(glowing(0.5)), rays=16)
@@ -458,6 +463,14 @@ class Devices(unittest.TestCase):
             np.testing.assert_allclose(lit[lit[..., 3] > 0].mean(), as_baked[as_baked[..., 3] > 0].mean(), rtol=0.1)
         with self.assertRaisesRegex(lumel.Error, "matrix"):
             lumel.Relight(device, coarse(scene))
+
+    def test_a_lamp_of_a_baked_scene_moves(self) -> None:
+        device = lumel.Device()
+        scene = ground(lights=[lumel.Light(name="lamp", intensity=100, position=(0, 2, 0))])
+        relight = lumel.Relight(device, lumel.bake(scene, device=device, method="matrix", size=33, sides="front"))
+        for height, lux in ((2, 25), (1, 100)):
+            relight.move_light("lamp", position=(0, height, 0))
+            self.assertAlmostEqual(float(relight.map()[..., 1].max()), lux, delta=0.05 * lux)
 
 
 if __name__ == "__main__":
