@@ -20,7 +20,7 @@ std::string lux_text(double lux)
     return fmt::format("{:.4g}", lux);
 }
 
-std::string line_of(const MeasureRow& row, const std::optional<double>& outdoors)
+std::string line_of(const MeasureSummary& summary, const MeasureRow& row)
 {
     const glm::dvec3 &at = row.point.place, &n = row.point.normal;
     std::string line = fmt::format("{:9.3f} {:9.3f} {:9.3f}  {:5.2f} {:5.2f} {:5.2f}", at.x, at.y,
@@ -30,8 +30,11 @@ std::string line_of(const MeasureRow& row, const std::optional<double>& outdoors
         return line + "  inside of a surface\n";
     line += fmt::format("  {:>10} ± {:<8}", lux_text(reading.lux),
                         fmt::format("{:.2g}", reading.noise));
-    if (outdoors)
-        line += fmt::format("  {:7.2f} %", kPercent * reading.lux / *outdoors);
+    if (const auto factor = daylight_factor(summary, row))
+        line += fmt::format("  {:7.2f} %", kPercent * *factor);
+    if (row.daylight)
+        line += fmt::format("  {:5.1f} %  {:5.1f} %", kPercent * row.daylight->autonomy,
+                            kPercent * (row.daylight->useful[1] + row.daylight->useful[2]));
     return line + "\n";
 }
 
@@ -40,10 +43,14 @@ std::string list_of(const MeasureSummary& summary)
     if (summary.rows.empty())
         return {};
     std::string text = "place [m]                      facing             illuminance [lx]";
-    text += summary.outdoors ? "        daylight\n" : "\n";
+    if (summary.outdoors || summary.year)
+        text += "        daylight";
+    if (summary.year)
+        text += fmt::format("  {:g} lx     useful", summary.year->target);
+    text += "\n";
     const std::size_t count = std::min(summary.rows.size(), kMeasuredRows);
     for (std::size_t i = 0; i < count; ++i)
-        text += line_of(summary.rows[i], summary.outdoors);
+        text += line_of(summary, summary.rows[i]);
     if (count < summary.rows.size())
         text += fmt::format("{} more points: --csv FILE writes all\n", summary.rows.size() - count);
     return text;
@@ -63,9 +70,18 @@ std::string plane_of(const MeasureSummary& summary)
     text += fmt::format("minimum {} lx, mean {} lx (± {:.2g}), maximum {} lx, uniformity {:.3f}",
                         lux_text(figures.least), lux_text(figures.mean), figures.noise_of_mean,
                         lux_text(figures.most), figures.uniformity);
-    if (summary.outdoors)
+    if (summary.year) {
+        const DaylightFigures& year = summary.year->figures;
+        text +=
+            fmt::format("; mean daylight factor {:.2f} %\n"
+                        "sDA {:g} lx, {:g} % of {} hours: {:.1f} % of the points; useful "
+                        "daylight (UDI, 100 to 3000 lx): {:.1f} % of the hours",
+                        kPercent * year.factor, summary.year->target, kPercent * kSufficientHours,
+                        summary.year->hours, kPercent * year.sufficient, kPercent * year.useful);
+    } else if (summary.outdoors) {
         text += fmt::format("; mean daylight factor {:.2f} %",
                             kPercent * figures.mean / *summary.outdoors);
+    }
     return text;
 }
 

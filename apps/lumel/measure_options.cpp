@@ -1,11 +1,14 @@
 // The options of lumel measure.
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "base/core/error.h"
+#include "base/core/number.h"
 #include "option_values.h"
 #include "shared_options.h"
 
@@ -60,6 +63,46 @@ void add_places(Command& command, MeasureOptions& options)
           &options.samples, text_of(options.samples), whole(kMinSamples, kMaxSamples)}});
 }
 
+/// "8-18"
+OccupiedHours hours_of(const std::string& text)
+{
+    constexpr double kHoursOfDay = 24.0;
+    const std::size_t dash = std::min(text.find('-'), text.size());
+    const std::string_view whole = text;
+    const auto from = number_of(whole.substr(0, dash));
+    const auto to = number_of(whole.substr(std::min(dash + 1, text.size())));
+    const auto is_hour = [](double hour) {
+        return hour >= 0.0 && hour <= kHoursOfDay && hour == std::floor(hour);
+    };
+    if (!from || !to || !is_hour(*from) || !is_hour(*to) || !(*from < *to))
+        refuse_value(fmt::format(
+            "--hours: '{}' is not of the form FROM-TO with whole hours from 0 to 24", text));
+    return {int(*from), int(*to)};
+}
+
+void add_daylight(Command& command, DaylightOptions& options)
+{
+    command.add(
+        "Daylight over a year",
+        {{"--weather", "FILE.epw",
+          "Weather file, for the daylight factor, daylight autonomy and useful daylight over a "
+          "year: of sky and sun alone, whatever lights the bake has",
+          &options.weather},
+         {.names = "--hours",
+          .type = "FROM-TO",
+          .help = "Occupied hours of the day that count, local standard time",
+          .target = [&options](const std::string& text) { options.occupied = hours_of(text); },
+          .default_value = fmt::format("{}-{}", options.occupied.from, options.occupied.to),
+          .needs = "--weather"},
+         {.names = "--target",
+          .type = "LUX",
+          .help = "Illuminance for daylight autonomy",
+          .target = &options.target,
+          .default_value = text_of(options.target),
+          .check = positive(),
+          .needs = "--weather"}});
+}
+
 void add_files(Command& command, MeasureOptions& options)
 {
     command.add(
@@ -91,6 +134,7 @@ Command measure_command()
                     .help = "Measure illuminance in a baked scene, at points or on a work plane"};
     command.add({bake_argument(given->folder)});
     add_places(command, options);
+    add_daylight(command, options.daylight);
     add_files(command, options);
     add_device_option(command, options.device);
     add_talk_options(command, given->talk);
@@ -98,6 +142,8 @@ Command measure_command()
         const MeasureOptions& wanted = given->options;
         if (wanted.points.empty() && !wanted.height && wanted.preview.empty())
             refuse_value("lumel measure needs --at X,Y,Z, --plane Y or --preview FILE.png");
+        if (!wanted.daylight.weather.empty() && wanted.points.empty() && !wanted.height)
+            refuse_value("--weather needs --at X,Y,Z or --plane Y");
         return {*given};
     };
     return command;

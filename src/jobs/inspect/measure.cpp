@@ -1,10 +1,12 @@
 #include "jobs/inspect/measure.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 
 #include <fmt/format.h>
 
+#include "base/core/files.h"
 #include "base/core/parallel.h"
 #include "base/images/image_files.h"
 #include "base/json/json_file.h"
@@ -39,6 +41,12 @@ WorkPlane plane_of(const MeasureOptions& options, const SolveScene& prepared)
     return plane;
 }
 
+MeterPoint meter_point(const FinishedBake& bake, const MeasurePoint& point)
+{
+    return {glm::vec3(point.place - bake.prepared.scene.origin),
+            glm::normalize(glm::vec3(point.normal))};
+}
+
 void read_all(const FinishedBake& bake, const LightMeter& meter, std::vector<MeasureRow>& rows,
               Stages& stages)
 {
@@ -48,14 +56,57 @@ void read_all(const FinishedBake& bake, const LightMeter& meter, std::vector<Mea
             for (std::size_t i = first; i < last; ++i) {
                 MeasurePoint& point = rows[i].point;
                 point.normal = glm::normalize(point.normal);
-                rows[i].reading = meter.read({glm::vec3(point.place - bake.prepared.scene.origin),
-                                              glm::normalize(glm::vec3(point.normal))},
-                                             std::uint32_t(i));
+                rows[i].reading = meter.read(meter_point(bake, point), std::uint32_t(i));
             }
         },
         [&](std::size_t count) { return stages.progress(double(count) / double(rows.size())); });
     if (!done)
         throw_stopped();
+}
+
+/// Measures daylight over the year of the weather file.
+void read_year(const FinishedBake& bake, const LightMeter& meter, const DaylightOptions& options,
+               MeasureSummary& summary, Stages& stages)
+{
+    stages.begin("sky and sun");
+    const Weather weather =
+        read_weather(read_file(options.weather, options.weather), options.weather);
+    const DaylightYear year(weather, options.occupied);
+    const auto seed = std::uint32_t(seed_of(bake.record.solver.method));
+    stages.begin("daylight");
+    const ReflectedDaylight reflected(bake.prepared, year.sun_places(), {.seed = seed},
+                                      [&](double part) { return stages.progress(part); });
+    if (!reflected.is_complete())
+        throw_stopped();
+    stages.begin("hours");
+    const DaylightMeter hours(meter, year, reflected, seed);
+    std::vector<MeasureRow>& rows = summary.rows;
+    const bool done = parallel_steps(
+        rows.size(), kPointsPerStep, kPointsPerTask,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                rows[i].daylight =
+                    hours.read(meter_point(bake, rows[i].point), std::uint32_t(i), options.target);
+        },
+        [&](std::size_t count) { return stages.progress(double(count) / double(rows.size())); });
+    if (!done)
+        throw_stopped();
+    std::vector<DaylightReading> readings;
+    for (const MeasureRow& row : rows)
+        readings.push_back(*row.daylight);
+    summary.year = {.city = weather.city,
+                    .hours = year.hours(),
+                    .target = options.target,
+                    .figures = figures_of(readings)};
+    summary.notes.push_back(
+        fmt::format("weather of {}: {} hours from {} to {} o'clock, {}", weather.city, year.hours(),
+                    options.occupied.from, options.occupied.to,
+                    weather.has_illuminance
+                        ? "with the illuminance of the file"
+                        : "with illuminance by the luminous efficacy of Perez et al. 1990"));
+    if (weather.missing > 0)
+        summary.notes.push_back(fmt::format(
+            "{} hours of the weather file have no radiation and count as dark", weather.missing));
 }
 
 /// Illuminance of an open plane, if the overcast sky is the only light.
@@ -73,7 +124,22 @@ std::optional<double> outdoors(const FinishedBake& bake, const LightMeter& meter
     return double(lights.cie->lux) * double(lights.sky_scale);
 }
 
-Json json_of(const MeasureRow& row, const std::optional<double>& outside)
+/// Ranges of useful daylight illuminance, as in JSON.
+constexpr std::array<const char*, 4> kUsefulNames = {"below_100", "100_to_300", "300_to_3000",
+                                                     "above_3000"};
+
+Json json_of(const DaylightReading& daylight)
+{
+    Json useful;
+    for (std::size_t k = 0; k < kUsefulNames.size(); ++k)
+        useful[kUsefulNames[k]] = kPercent * daylight.useful[k];
+    return {{"factor_noise", kPercent * daylight.factor_noise},
+            {"autonomy", kPercent * daylight.autonomy},
+            {"useful", useful},
+            {"mean_illuminance", daylight.mean_lux}};
+}
+
+Json json_of(const MeasureSummary& summary, const MeasureRow& row)
 {
     Json json = {{"place", json_array(row.point.place)},
                  {"normal", json_array(row.point.normal)},
@@ -83,19 +149,21 @@ Json json_of(const MeasureRow& row, const std::optional<double>& outside)
     json["illuminance"] = row.reading.lux;
     json["noise"] = row.reading.noise;
     json["light"] = json_array(glm::dvec3(row.reading.light));
-    if (outside)
-        json["daylight_factor"] = kPercent * row.reading.lux / *outside;
+    if (const auto factor = daylight_factor(summary, row))
+        json["daylight_factor"] = kPercent * *factor;
+    if (row.daylight)
+        json["year"] = json_of(*row.daylight);
     return json;
 }
 
-Json json_of(const WorkPlane& plane, const PlaneFigures& figures, std::size_t all,
-             const std::optional<double>& outside)
+Json json_of(const WorkPlane& plane, const MeasureSummary& summary)
 {
+    const PlaneFigures& figures = summary.figures;
     Json json = {{"height", plane.height},
                  {"spacing", plane.spacing},
                  {"bounds", {plane.low.x, plane.low.y, plane.high.x, plane.high.y}},
                  {"points", figures.count},
-                 {"left_out", all - figures.count}};
+                 {"left_out", summary.rows.size() - figures.count}};
     if (figures.count == 0)
         return json;
     json["minimum"] = figures.least;
@@ -103,8 +171,14 @@ Json json_of(const WorkPlane& plane, const PlaneFigures& figures, std::size_t al
     json["maximum"] = figures.most;
     json["uniformity"] = figures.uniformity;
     json["noise_of_mean"] = figures.noise_of_mean;
-    if (outside)
-        json["mean_daylight_factor"] = kPercent * figures.mean / *outside;
+    if (summary.year)
+        json["mean_daylight_factor"] = kPercent * summary.year->figures.factor;
+    else if (summary.outdoors)
+        json["mean_daylight_factor"] = kPercent * figures.mean / *summary.outdoors;
+    if (summary.year) {
+        json["sufficient_daylight"] = kPercent * summary.year->figures.sufficient;
+        json["mean_useful_daylight"] = kPercent * summary.year->figures.useful;
+    }
     return json;
 }
 
@@ -115,17 +189,23 @@ std::string report_of(const FinishedBake& bake, const MeasureSummary& summary)
                      {"illuminance", "lx"},
                      {"light", "lx, linear RGB"},
                      {"noise", "lx, standard error of the rays"},
-                     {"daylight_factor", "%"}};
+                     {"daylight_factor", "%"},
+                     {"autonomy", "% of the hours"},
+                     {"useful", "% of the hours"},
+                     {"sufficient_daylight", "% of the points"}};
     if (bake.record.error >= 0.0)
         json["error_of_bake"] = bake.record.error;
     if (summary.outdoors)
         json["outdoors"] = *summary.outdoors;
     if (summary.plane)
-        json["plane"] =
-            json_of(*summary.plane, summary.figures, summary.rows.size(), summary.outdoors);
+        json["plane"] = json_of(*summary.plane, summary);
+    if (summary.year)
+        json["year"] = {{"city", summary.year->city},
+                        {"hours", summary.year->hours},
+                        {"target", summary.year->target}};
     json["points"] = Json::array();
     for (const MeasureRow& row : summary.rows)
-        json["points"].push_back(json_of(row, summary.outdoors));
+        json["points"].push_back(json_of(summary, row));
     json["notes"] = summary.notes;
     return json_text(json);
 }
@@ -133,17 +213,33 @@ std::string report_of(const FinishedBake& bake, const MeasureSummary& summary)
 std::string csv_of(const MeasureSummary& summary)
 {
     std::string text = "x_m,y_m,z_m,normal_x,normal_y,normal_z,illuminance_lx,noise_lx";
-    text += summary.outdoors ? ",daylight_factor_percent\n" : "\n";
+    const bool has_factor = summary.outdoors || summary.year;
+    if (has_factor)
+        text += ",daylight_factor_percent";
+    if (summary.year) {
+        text += ",autonomy_percent";
+        for (const char* name : kUsefulNames)
+            text += fmt::format(",useful_{}_percent", name);
+        text += ",mean_daylight_lx";
+    }
+    text += "\n";
     for (const MeasureRow& row : summary.rows) {
         const glm::dvec3 &at = row.point.place, &n = row.point.normal;
         text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},", at.x, at.y, at.z, n.x,
                             n.y, n.z);
         const Reading& reading = row.reading;
         text += reading.inside ? "," : fmt::format("{:.6g},{:.3g}", reading.lux, reading.noise);
-        if (summary.outdoors)
-            text += reading.inside
-                        ? ","
-                        : fmt::format(",{:.6g}", kPercent * reading.lux / *summary.outdoors);
+        const auto add = [&](double value) {
+            text += reading.inside ? "," : fmt::format(",{:.6g}", value);
+        };
+        if (has_factor)
+            add(kPercent * *daylight_factor(summary, row));
+        if (row.daylight) {
+            add(kPercent * row.daylight->autonomy);
+            for (const double share : row.daylight->useful)
+                add(kPercent * share);
+            add(row.daylight->mean_lux);
+        }
         text += "\n";
     }
     return text;
@@ -177,6 +273,15 @@ void write_preview(const FinishedBake& bake, const MeasureOptions& options)
 
 }  // namespace
 
+std::optional<double> daylight_factor(const MeasureSummary& summary, const MeasureRow& row)
+{
+    if (row.daylight)
+        return row.daylight->factor;
+    if (summary.outdoors)
+        return row.reading.lux / *summary.outdoors;
+    return std::nullopt;
+}
+
 MeasureSummary measure(const std::string& folder, const MeasureOptions& options,
                        const ProgressFunction& progress)
 {
@@ -199,11 +304,14 @@ MeasureSummary measure(const std::string& folder, const MeasureOptions& options,
         bake.prepared.scene, bake.prepared.rays, bake.prepared.atlas, bake.prepared.lumels,
         bake.irradiance, {.samples = options.samples, .seed = seed_of(bake.record.solver.method)});
     read_all(bake, meter, summary.rows, stages);
-    summary.outdoors = outdoors(bake, meter, summary);
+    if (options.daylight.weather.empty())
+        summary.outdoors = outdoors(bake, meter, summary);
     std::vector<Reading> readings;
     for (const MeasureRow& row : summary.rows)
         readings.push_back(row.reading);
     summary.figures = figures_of(readings);
+    if (!options.daylight.weather.empty())
+        read_year(bake, meter, options.daylight, summary, stages);
     summary.report = report_of(bake, summary);
 
     stages.begin("writing");

@@ -167,15 +167,15 @@ void LinkTracer::end_or_reflect(RayBatch& wave, int reflections) const
         path.end = LinkEnd::of(LinkNumbers::kBelow);
         if (arrival.is_hidden && !arrival.goes_on)
             continue;
-        if (!arrival.looks_around) {
+        if (!arrival.looks_around)
             path.light += path.weight * albedo * direct_.at(arrival.lumel, arrival.cell);
-            if (lamps_)
-                wave.shares.push_back(
-                    {arrival.path, NearShare::kEveryLamp,
-                     LinkEnd::of(numbers_.of_part(parts_.part(arrival.lumel, arrival.cell)),
-                                 arrival.cell),
-                     path.weight});
-        }
+        // Of light from outside, only that at lumels is known.
+        if (lamps_ && (!arrival.looks_around || lamps_->all.empty()))
+            wave.shares.push_back(
+                {arrival.path, NearShare::kEveryLamp,
+                 LinkEnd::of(numbers_.of_part(parts_.part(arrival.lumel, arrival.cell)),
+                             arrival.cell),
+                 path.weight});
         if (!arrival.goes_on) {
             path.end = LinkEnd::of(numbers_.of_part(parts_.part(arrival.lumel, arrival.cell)),
                                    arrival.cell);

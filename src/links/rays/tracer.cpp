@@ -89,7 +89,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         const PathSamples samples = own[k];
         std::optional<GuidedDraw::Drawn> drawn;
         if (guided) {
-            drawn = (*guided)(samples.stratified(kDirectionPair));
+            drawn = (*guided)(samples.stratified(kLinkDirectionPair));
             wave.probabilities.push_back(guided->probability(drawn->bin));
         }
         std::optional<LinkEnd> end = known.empty() ? std::nullopt : still(known[k], *sending.known);
@@ -112,7 +112,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         std::uint32_t along = 0;
         glm::vec3 direction;
         if (shared) {
-            along = shared->draw(start.normal, samples.stratified(kDirectionPair).x);
+            along = shared->draw(start.normal, samples.stratified(kLinkDirectionPair).x);
             direction = sending.shared->all()[along];
         } else {
             if (start.normal != axis) {
@@ -120,7 +120,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
                 frame = frame_about(axis);
             }
             direction =
-                frame * by_cosine(drawn ? drawn->point : samples.stratified(kDirectionPair));
+                frame * by_cosine(drawn ? drawn->point : samples.stratified(kLinkDirectionPair));
         }
         if (start.cosine(direction) > 0.0f) {
             const RaySpan ray = ray_out(start.position, direction, samples.bits(kPassPair));

@@ -23,12 +23,13 @@ namespace lumel {
 inline constexpr std::uint32_t kSharedStream = 0, kPartStream = 1, kDirectStream = 2,
                                kLinkStream = 3;
 /// Dimension pair of a ray's direction.
-inline constexpr std::uint32_t kDirectionPair = 1;
+inline constexpr std::uint32_t kLinkDirectionPair = 1;
 
 /// Traces rays from lumels until they hit a sub-lumel.
 class LinkTracer {
 public:
-    /// All arguments must outlive this. lamps: whose light is kept apart, or null.
+    /// All arguments must outlive this. lamps: whose light is kept apart, or null;
+    /// none of them: all light is from outside, see LinkRadiosity::reflected().
     LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
                const DirectEstimator& direct, std::uint32_t seed, const LampTable* lamps = nullptr);
 

@@ -1,6 +1,6 @@
-// LinkRadiosity's light of each lamp. Light is linear in its sources: the links serve all lamps,
-// and only direct light, source term and sweeps are a lamp's own. The filter has the gains of the
-// whole light, so that the lamps add up to it.
+// LinkRadiosity's light of each lamp, and of sources that are not in the scene. Light is linear in
+// its sources: the links serve all lamps, and only direct light, source term and sweeps are a
+// lamp's own. The filter has the gains of the whole light, so that the lamps add up to it.
 
 #include <algorithm>
 #include <cmath>
@@ -154,6 +154,35 @@ void LinkRadiosity::add_direct_lamps(std::vector<LampLight>& lamps, std::vector<
         by->direct_parts(one, other, means);
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp)
         add_positive(lamps[lamp].irradiance, means[lamp]);
+}
+
+std::vector<glm::vec3> LinkRadiosity::reflected(std::span<const glm::vec3> direct) const
+{
+    const GivenReflected reflected(work_, *parts_, *numbers_, direct);
+    std::vector<glm::vec3> mean(direct.size(), glm::vec3(0.0f)), bounced;
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        const LinkTable& links = *links_[k];
+        const SourceTerm source = find_source_term(work_, *parts_, *numbers_, reflected, links);
+        std::vector<glm::vec3> received = bounced;
+        if (k == 0) {
+            solver_->solve_lamps(links, source, std::max(sweep_residual(), kLampResidual), bounced);
+            received = bounced;
+        } else {
+            solver_->gather_lamps(links, source, received);
+        }
+        parallel_for(work_.lumels().size(), kLumelsPerTask, [&](std::size_t from, std::size_t to) {
+            for (std::size_t i = from; i < to; ++i) {
+                float rays = 0.0f;
+                for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
+                    rays += source.rays[p];
+                for (std::uint32_t p = parts_->first(i); rays > 0.0f && p < parts_->end(i); ++p)
+                    for (std::size_t lane = 0; lane < kLampLanes; ++lane)
+                        mean[i * kLampLanes + lane] += source.rays[p] / (rays * float(kSolutions)) *
+                                                       received[p * kLampLanes + lane];
+            }
+        });
+    }
+    return mean;
 }
 
 /// Scales the lamps of each lumel so that they add up to its light: their sweeps end at a residual,

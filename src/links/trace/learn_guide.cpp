@@ -89,7 +89,7 @@ void LinkRadiosity::add_moments(std::uint32_t i, std::uint32_t k, const LinkRow&
     const glm::mat3 frame = frame_about(work_.world[i].normal);
     std::size_t n_near = 0;
     for (std::uint32_t n = 0; n < row.ends.size(); ++n) {
-        const glm::vec2 point = own[n].stratified(kDirectionPair);
+        const glm::vec2 point = own[n].stratified(kLinkDirectionPair);
         const std::uint32_t number = row.ends[n].number();
         double light = double(sent.all[number]);
         if (number == LinkNumbers::kNear) {

@@ -41,6 +41,7 @@ constexpr std::size_t kBlocksPerDrawing = 512;
 constexpr double kDirectOfRound = 0.5;
 /// Minimum mean albedo of rooms whose level is balanced.
 constexpr double kBrightRoom = 0.95;
+const LightSelection kNoSources{.surfaces = false, .lamps = false, .sky = false};
 
 /// Adds the elapsed time to a stage [ms].
 class Stopwatch {
@@ -83,10 +84,12 @@ LinkRadiosity::LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters,
       most_shots_(limits.max_shots),
       most_bytes_(limits.max_bytes),
       parts_wanted_(parts),
-      work_(scene, std::move(casters), options.rule, order_in_space),
-      lamps_(options.per_lamp ? std::optional(find_lamps(scene.scene, scene.lumels, work_.sources,
-                                                         options.groups))
-                              : std::nullopt)
+      work_(scene, std::move(casters), options.rule, order_in_space,
+            options.outside_light ? kNoSources : LightSelection{}),
+      lamps_(options.outside_light ? std::optional(LampTable{})
+             : options.per_lamp ? std::optional(find_lamps(scene.scene, scene.lumels, work_.sources,
+                                                           options.groups))
+                                : std::nullopt)
 {
 }
 

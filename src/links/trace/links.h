@@ -106,6 +106,9 @@ public:
     /// The light of each lamp, whose sum is irradiance(); empty if progress returns false. Ends the
     /// solution: a round in progress is dropped. Call it once.
     std::optional<LampsLight> light_of_lamps(const std::function<bool(double)>& progress = {});
+    /// After the last step: light of kLampLanes sources that are not in the scene, after one bounce
+    /// and more [N][kLampLanes] [lx], by their direct light at each lumel [N][kLampLanes] [lx].
+    std::vector<glm::vec3> reflected(std::span<const glm::vec3> direct) const;
     /// Links to store for a later run, after a round has ended. hash: Scene::hash.
     StoredLinks kept(const std::string& hash) const;
     /// Rays that lumels have sent, without the known ones.

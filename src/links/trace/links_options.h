@@ -32,6 +32,8 @@ struct LinksOptions {
     std::uint32_t even_rays = 0;
     bool per_lamp = false;          ///< keeps the light of lamps apart
     std::vector<LampGroup> groups;  ///< of lamps that are kept as one
+    /// No source of the scene counts: the links are those of LinkRadiosity::reflected().
+    bool outside_light = false;
 };
 
 }  // namespace lumel

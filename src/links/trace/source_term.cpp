@@ -125,6 +125,32 @@ LaneLight<kLampLanes> LampsReflected::of_sky(const glm::vec3& light) const
     return lanes;
 }
 
+GivenReflected::GivenReflected(const LinkWork& work, const SubLumels& parts,
+                               const LinkNumbers& numbers, std::span<const glm::vec3> direct)
+    : of_number_(numbers.count(), LaneLight<kLampLanes>{})
+{
+    parallel_for(work.lumels().size(), kSourcesPerTask, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+            LaneLight<kLampLanes> light{};
+            for (std::size_t lane = 0; lane < kLampLanes; ++lane)
+                light[lane] =
+                    glm::vec4(work.lumels()[i].albedo * direct[i * kLampLanes + lane], 0.0f);
+            std::fill(of_number_.begin() + numbers.of_part(parts.first(i)),
+                      of_number_.begin() + numbers.of_part(parts.end(i)), light);
+        }
+    });
+}
+
+LaneLight<kLampLanes> GivenReflected::near(std::span<const NearShare> shares) const
+{
+    LaneLight<kLampLanes> sum{};
+    for (const NearShare& share : shares)
+        if (share.lamp == NearShare::kEveryLamp)
+            for (std::size_t lane = 0; lane < kLampLanes; ++lane)
+                sum[lane] += glm::vec4(share.light, 0.0f) * of_number_[share.at.number()][lane];
+    return sum;
+}
+
 namespace {
 
 /// Light of all sources together, as LampsReflected gives that of lamps.
@@ -145,6 +171,12 @@ LaneLight<1> near_light(const AllReflected&, const NearLight& near, std::span<co
 }
 
 LaneLight<kLampLanes> near_light(const LampsReflected& reflected, const NearLight&,
+                                 std::span<const NearShare> shares)
+{
+    return reflected.near(shares);
+}
+
+LaneLight<kLampLanes> near_light(const GivenReflected& reflected, const NearLink&,
                                  std::span<const NearShare> shares)
 {
     return reflected.near(shares);
@@ -245,6 +277,13 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
 
 SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
                             const LinkNumbers& numbers, const LampsReflected& reflected,
+                            const LinkTable& links)
+{
+    return sum_over_rays<kLampLanes>(work, parts, numbers, reflected, links);
+}
+
+SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
+                            const LinkNumbers& numbers, const GivenReflected& reflected,
                             const LinkTable& links)
 {
     return sum_over_rays<kLampLanes>(work, parts, numbers, reflected, links);

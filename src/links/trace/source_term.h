@@ -90,12 +90,36 @@ private:
                                                     ///< differ
 };
 
+/// Light of a few sources that are not in the scene, as each number of a link's end reflects it
+/// [lm/m²].
+class GivenReflected {
+public:
+    /// direct: light of kLampLanes sources at each lumel [N][kLampLanes] [lx].
+    GivenReflected(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
+                   std::span<const glm::vec3> direct);
+
+    const LaneLight<kLampLanes>& at(LinkEnd end, LaneLight<kLampLanes>&) const
+    {
+        return of_number_[end.number()];
+    }
+    /// Gathered by a near link [lx], of these shares.
+    LaneLight<kLampLanes> near(std::span<const NearShare> shares) const;
+    /// None: the light of the sky is direct light.
+    LaneLight<kLampLanes> of_sky(const glm::vec3&) const { return {}; }
+
+private:
+    std::vector<LaneLight<kLampLanes>> of_number_;  ///< [numbers]
+};
+
 SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
                             const LinkNumbers& numbers, const ReflectedLight& reflected,
                             const LinkTable& links);
 /// Of kLampLanes lamps at once.
 SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
                             const LinkNumbers& numbers, const LampsReflected& reflected,
+                            const LinkTable& links);
+SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
+                            const LinkNumbers& numbers, const GivenReflected& reflected,
                             const LinkTable& links);
 
 /// Distances that the rays of several tables went, about.

@@ -66,7 +66,9 @@ MetLight ArrivingLight::met_along(const glm::vec3& position, const glm::vec3& di
 {
     RayHit hit;
     if (!rays_.closest(ray_out(position, direction, seed), hit))
-        return {.light = kPi * hit.tint * sources_.dim_sky(direction), .is_sky = true};
+        return {.light = kPi * hit.tint * sources_.dim_sky(direction),
+                .is_sky = true,
+                .tint = hit.tint};
     if (!hit.front && !surfaces_.all()[surfaces_.index(hit.instance, hit.primitive)].double_sided) {
         ++backs;
         return {};
@@ -76,7 +78,7 @@ MetLight ArrivingLight::met_along(const glm::vec3& position, const glm::vec3& di
         return {};
     if (dark_[lumel])
         ++backs;
-    return {.light = hit.tint * reflected_[lumel], .lumel = lumel};
+    return {.light = hit.tint * reflected_[lumel], .lumel = lumel, .tint = hit.tint};
 }
 
 glm::vec3 ArrivingLight::transmittance(const RayOrigin& start, const SourceSample& sample,

@@ -19,6 +19,7 @@ struct MetLight {
     glm::vec3 light{0.0f};                   ///< π L
     std::uint32_t lumel = HitLumels::kNone;  ///< that reflects it
     bool is_sky = false;                     ///< of LightSources::dim_sky()
+    glm::vec3 tint{1.0f};                    ///< of the glass that it passed
 };
 
 /// Thread-safe.

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/core/luminance.h"
 #include "lights/source_estimate.h"
@@ -45,7 +46,8 @@ Reading LightMeter::read(const MeterPoint& point, std::uint32_t number) const
     for (std::uint32_t set = 0; set < kRaySets; ++set) {
         const std::uint32_t stream = stream_of_set(seed_, number, set);
         glm::vec3 along(0.0f), sources(0.0f);
-        along_rays(start, stream, backs, [&](const MetLight& met) { along += met.light; });
+        along_rays(start, stream, backs,
+                   [&](const glm::vec3&, const MetLight& met) { along += met.light; });
         from_sources(start, shares, stream,
                      [&](std::size_t, const glm::vec3& light) { sources += light; });
         const glm::vec3 light = along / float(rays_of_set_) + sources;
@@ -70,7 +72,7 @@ LampReadings LightMeter::read_lamps(const MeterPoint& point, std::uint32_t numbe
     std::vector<double>& lux = readings.lux;
     std::uint32_t backs = 0;
     const double rays = double(kRaySets) * double(rays_of_set_);
-    const auto add_met = [&](const MetLight& met) {
+    const auto add_met = [&](const glm::vec3&, const MetLight& met) {
         if (met.is_sky)
             lux[shares.lamps.of_dim_sky] += luminance(met.light) / rays;
         else if (met.lumel != HitLumels::kNone)
@@ -88,7 +90,29 @@ LampReadings LightMeter::read_lamps(const MeterPoint& point, std::uint32_t numbe
     return readings;
 }
 
-/// Calls add(met) for each ray of a set.
+bool LightMeter::visit_rays(const MeterPoint& point, std::uint32_t number,
+                            const RayVisitor& visit) const
+{
+    const RayOrigin start = start_at(point);
+    std::uint32_t backs = 0;
+    for (std::uint32_t set = 0; set < kRaySets; ++set)
+        along_rays(
+            start, stream_of_set(seed_, number, set), backs,
+            [&](const glm::vec3& direction, const MetLight& met) { visit(set, direction, met); });
+    return tell_of_inside(backs, double(kRaySets) * double(rays_of_set_));
+}
+
+glm::vec3 LightMeter::light_from(const MeterPoint& point, const glm::vec3& direction,
+                                 std::uint32_t seed) const
+{
+    const RayOrigin start = start_at(point);
+    const SourceSample sample{.direction = direction,
+                              .distance = std::numeric_limits<float>::infinity(),
+                              .irradiance = glm::vec3(start.cosine(direction))};
+    return light_.transmittance(start, sample, seed) * sample.irradiance;
+}
+
+/// Calls add(direction, met) for each ray of a set.
 template <class Add>
 void LightMeter::along_rays(const RayOrigin& start, std::uint32_t stream, std::uint32_t& backs,
                             const Add& add) const
@@ -97,8 +121,8 @@ void LightMeter::along_rays(const RayOrigin& start, std::uint32_t stream, std::u
         const PathSamples samples(stream, k);
         const glm::vec2 disc = square_to_disc(samples.stratified(kDirectionPair));
         const float up = std::sqrt(std::max(1.0f - glm::dot(disc, disc), 0.0f));
-        add(light_.met_along(start.position, turn_to(start.normal, disc.x, disc.y, up),
-                             samples.bits(kSeedPair), backs));
+        const glm::vec3 direction = turn_to(start.normal, disc.x, disc.y, up);
+        add(direction, light_.met_along(start.position, direction, samples.bits(kSeedPair), backs));
     }
 }
 

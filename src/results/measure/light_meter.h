@@ -1,6 +1,7 @@
 #pragma once
 // Light meter at a point of a solved scene, in the air or on a surface.
 
+#include <functional>
 #include <vector>
 
 #include "lights/lamps.h"
@@ -50,6 +51,16 @@ public:
     /// A reading of each lamp; their sum is read().
     LampReadings read_lamps(const MeterPoint& point, std::uint32_t number,
                             const LampShares& shares) const;
+
+    /// Visits the rays of read(), set by set. Returns Reading::inside.
+    using RayVisitor =
+        std::function<void(std::uint32_t set, const glm::vec3& direction, const MetLight& met)>;
+    bool visit_rays(const MeterPoint& point, std::uint32_t number, const RayVisitor& visit) const;
+    std::uint32_t rays_in_set() const { return rays_of_set_; }
+
+    /// Light [lx] of a far source in a direction that gives 1 lx on a plane that faces it.
+    glm::vec3 light_from(const MeterPoint& point, const glm::vec3& direction,
+                         std::uint32_t seed) const;
 
     const LightSources& sources() const { return light_.sources(); }
     /// True if there is light other than the sky's.

@@ -1,0 +1,194 @@
+// A point's illuminance in an hour is a sum over patches k of luminance L_k, and the sun:
+//
+//     E = Σ_k L_k C_k + E_s (τ cosθ_s + Σ_p w_p C_p)                          [TW83]
+//
+// C_k is π/R Σ τ over the rays that leave through k, plus the light of the lumels that rays hit,
+// 1/R Σ τ B_k; C_p is the latter for the sun at place p, with weights w_p (daylight_year.cpp).
+// Direct light of the sun takes one shadow ray an hour to a random point of its disc.
+//
+// [LM83] IES LM-83-12. Spatial Daylight Autonomy (sDA) and Annual Sunlight Exposure (ASE).
+
+#include "results/daylight/daylight_meter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/core/frame.h"
+#include "base/core/luminance.h"
+#include "base/core/pi.h"
+#include "base/core/sphere.h"
+#include "results/measure/ray_sets.h"
+#include "scene/sky/cie_sky.h"
+#include "scene/sky/clear_sky.h"
+
+namespace lumel {
+namespace {
+
+double product(std::span<const float> a, std::span<const float> b)
+{
+    double sum = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+        sum += double(a[k]) * double(b[k]);
+    return sum;
+}
+
+/// Standard error of the mean of `of` each set.
+template <class Of>
+double noise_of(const Of& of)
+{
+    std::array<double, kRaySets> values;
+    double mean = 0.0, squares = 0.0;
+    for (std::size_t set = 0; set < kRaySets; ++set)
+        mean += (values[set] = of(set)) / double(kRaySets);
+    for (const double value : values)
+        squares += (value - mean) * (value - mean);
+    return standard_error(squares);
+}
+
+}  // namespace
+
+DaylightMeter::DaylightMeter(const LightMeter& meter, const DaylightYear& year,
+                             const ReflectedDaylight& reflected, std::uint32_t seed)
+    : meter_(meter),
+      year_(year),
+      reflected_(reflected),
+      seed_(seed),
+      patches_(year.patches().count())
+{
+    const SkyPatches whole;
+    const std::vector<double> overcast = year.patches().means(
+        [](const glm::dvec3& direction) { return cie_luminance(kOvercastType, direction.y, 0.0); });
+    double on_plane = 0.0;
+    for (std::size_t k = 0; k < patches_; ++k) {
+        share_.push_back(
+            float(year.patches().solid_angle(k) / whole.solid_angle(year.patches().whole(k))));
+        on_plane += overcast[k] * year.patches().projected(k);
+    }
+    for (const double luminance : overcast)
+        overcast_.push_back(float(luminance / on_plane));
+}
+
+DaylightCoefficients DaylightMeter::coefficients(const MeterPoint& point,
+                                                 std::uint32_t number) const
+{
+    const std::size_t wholes = SkyPatches().count(), places = reflected_.count() - wholes;
+    DaylightCoefficients found;
+    found.of_sets.assign(kRaySets, std::vector<float>(patches_ + places, 0.0f));
+    std::vector<std::vector<double>> by_lumels(kRaySets,
+                                               std::vector<double>(reflected_.count(), 0.0));
+    const float share = 1.0f / float(meter_.rays_in_set());
+    found.inside = meter_.visit_rays(
+        point, number, [&](std::uint32_t set, const glm::vec3& direction, const MetLight& met) {
+            if (met.is_sky) {
+                const std::uint32_t patch = year_.patches().at(direction);
+                if (patch != SkyPatches::kNone)
+                    found.of_sets[set][patch] += share * kPi * float(luminance(met.tint));
+            } else if (met.lumel != HitLumels::kNone) {
+                const glm::vec3* const sent = reflected_.of(met.lumel);
+                for (std::size_t k = 0; k < by_lumels[set].size(); ++k)
+                    by_lumels[set][k] += luminance(share * met.tint * sent[k]);
+            }
+        });
+    found.mean.assign(patches_ + places, 0.0f);
+    for (std::size_t set = 0; set < kRaySets; ++set) {
+        std::vector<float>& of_set = found.of_sets[set];
+        for (std::size_t k = 0; k < patches_; ++k)
+            of_set[k] += share_[k] * float(by_lumels[set][year_.patches().whole(k)]);
+        for (std::size_t p = 0; p < places; ++p)
+            of_set[patches_ + p] = float(by_lumels[set][wholes + p]);
+        for (std::size_t k = 0; k < of_set.size(); ++k)
+            found.mean[k] += of_set[k] / float(kRaySets);
+    }
+    return found;
+}
+
+/// Direct light [lx] of the sun.
+float DaylightMeter::direct_sun(const MeterPoint& point, std::uint32_t number,
+                                std::size_t hour) const
+{
+    const DaylightYear::Sun& sun = year_.sun(hour);
+    if (!(sun.lux > 0.0f) || !(glm::dot(sun.direction, point.normal) > -kSunAngle))
+        return 0.0f;
+    const PathSamples samples(PathSamples::hash(seed_, number), std::uint32_t(hour));
+    const glm::vec3 direction =
+        frame_about(sun.direction) * in_cone(samples.random(kDirectionPair), kSunAngle);
+    return sun.lux * float(luminance(meter_.light_from(point, direction, samples.bits(kSeedPair))));
+}
+
+/// Illuminance in all hours [lx].
+std::vector<float> DaylightMeter::hours(const MeterPoint& point, std::uint32_t number,
+                                        std::span<const float> coefficients) const
+{
+    std::vector<float> lux(year_.hours(), 0.0f);
+    for (std::size_t k = 0; k < patches_; ++k) {
+        const float coefficient = coefficients[k];
+        const std::span<const float> luminance = year_.luminance(k);
+        for (std::size_t h = 0; coefficient > 0.0f && h < lux.size(); ++h)
+            lux[h] += coefficient * luminance[h];
+    }
+    for (std::size_t h = 0; h < lux.size(); ++h) {
+        const DaylightYear::Sun& sun = year_.sun(h);
+        if (!(sun.lux > 0.0f))
+            continue;
+        for (std::size_t k = 0; k < sun.place.size(); ++k)
+            lux[h] += sun.lux * sun.weight[k] * coefficients[patches_ + sun.place[k]];
+        lux[h] += direct_sun(point, number, h);
+    }
+    return lux;
+}
+
+HourReading DaylightMeter::hour(const MeterPoint& point, std::uint32_t number,
+                                const DaylightCoefficients& coefficients, std::size_t hour) const
+{
+    const DaylightYear::Sun& sun = year_.sun(hour);
+    std::vector<float> weights(coefficients.mean.size(), 0.0f);
+    for (std::size_t k = 0; k < patches_; ++k)
+        weights[k] = year_.luminance(k)[hour];
+    for (std::size_t k = 0; sun.lux > 0.0f && k < sun.place.size(); ++k)
+        weights[patches_ + sun.place[k]] += sun.lux * sun.weight[k];
+    return {.lux = product(coefficients.mean, weights) + double(direct_sun(point, number, hour)),
+            .noise = noise_of(
+                [&](std::size_t set) { return product(coefficients.of_sets[set], weights); })};
+}
+
+DaylightReading DaylightMeter::read(const MeterPoint& point, std::uint32_t number,
+                                    double target) const
+{
+    const DaylightCoefficients found = coefficients(point, number);
+    DaylightReading reading{.inside = found.inside};
+    const auto factor = [&](std::span<const float> coefficients) {
+        return product(coefficients.first(patches_), overcast_);
+    };
+    reading.factor = factor(found.mean);
+    reading.factor_noise = noise_of([&](std::size_t set) { return factor(found.of_sets[set]); });
+    const std::vector<float> lux = hours(point, number, found.mean);
+    const double share = lux.empty() ? 0.0 : 1.0 / double(lux.size());
+    for (const float one : lux) {
+        const auto range =
+            std::upper_bound(kUsefulDaylight.begin(), kUsefulDaylight.end(), double(one)) -
+            kUsefulDaylight.begin();
+        reading.useful[std::size_t(range)] += share;
+        reading.autonomy += double(one) >= target ? share : 0.0;
+        reading.mean_lux += share * double(one);
+    }
+    return reading;
+}
+
+DaylightFigures figures_of(std::span<const DaylightReading> readings)
+{
+    DaylightFigures figures;
+    for (const DaylightReading& reading : readings) {
+        if (reading.inside)
+            continue;
+        ++figures.count;
+        figures.factor += reading.factor;
+        figures.sufficient += reading.autonomy >= kSufficientHours ? 1.0 : 0.0;
+        figures.useful += reading.useful[1] + reading.useful[2];
+    }
+    if (figures.count > 0)
+        for (double* figure : {&figures.factor, &figures.sufficient, &figures.useful})
+            *figure /= double(figures.count);
+    return figures;
+}
+
+}  // namespace lumel

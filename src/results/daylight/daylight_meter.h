@@ -1,0 +1,80 @@
+#pragma once
+// Daylight at a point: of one hour, and figures over the occupied hours of a year.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "results/daylight/reflected_daylight.h"
+#include "results/measure/light_meter.h"
+
+namespace lumel {
+
+/// Upper bounds of the three lower ranges of useful daylight illuminance [lx]. [MAR12]
+inline constexpr std::array<double, 3> kUsefulDaylight = {100.0, 300.0, 3000.0};
+/// Share of the occupied hours with the target illuminance, from which on a point counts. [LM83]
+inline constexpr double kSufficientHours = 0.5;
+
+/// Daylight coefficients [TW83] of a point by luminance: of the patches of a DaylightYear, then of
+/// the places of its sun, reflected light only.
+struct DaylightCoefficients {
+    std::vector<std::vector<float>> of_sets;  ///< [kRaySets] by independent rays
+    std::vector<float> mean;
+    bool inside = false;  ///< as Reading::inside
+};
+
+struct DaylightReading {
+    double factor = 0.0;             ///< daylight factor, 0…1 of that outdoors
+    double factor_noise = 0.0;       ///< its standard error by the rays alone
+    double autonomy = 0.0;           ///< share of the occupied hours with the target illuminance
+    std::array<double, 4> useful{};  ///< shares of the hours in the ranges of kUsefulDaylight
+    double mean_lux = 0.0;           ///< over the occupied hours [lx]
+    bool inside = false;             ///< as Reading::inside
+};
+
+/// Illuminance of an hour.
+struct HourReading {
+    double lux = 0.0;
+    double noise = 0.0;  ///< standard error by the rays alone [lx]
+};
+
+/// Thread-safe.
+class DaylightMeter {
+public:
+    /// All arguments must outlive this. meter: of the lumels of `reflected`.
+    DaylightMeter(const LightMeter& meter, const DaylightYear& year,
+                  const ReflectedDaylight& reflected, std::uint32_t seed);
+
+    /// number: of the point; selects its random numbers.
+    DaylightReading read(const MeterPoint& point, std::uint32_t number, double target) const;
+
+    DaylightCoefficients coefficients(const MeterPoint& point, std::uint32_t number) const;
+    /// hour: of the year's.
+    HourReading hour(const MeterPoint& point, std::uint32_t number,
+                     const DaylightCoefficients& coefficients, std::size_t hour) const;
+
+private:
+    float direct_sun(const MeterPoint& point, std::uint32_t number, std::size_t hour) const;
+    std::vector<float> hours(const MeterPoint& point, std::uint32_t number,
+                             std::span<const float> coefficients) const;
+
+    const LightMeter& meter_;
+    const DaylightYear& year_;
+    const ReflectedDaylight& reflected_;
+    std::uint32_t seed_;
+    std::size_t patches_;          ///< of the year
+    std::vector<float> share_;     ///< [patches_] solid angle as a part of the whole patch's
+    std::vector<float> overcast_;  ///< [patches_] luminance of the overcast sky per lux [cd/m²/lx]
+};
+
+/// Figures of a plane, over the points that are not inside objects.
+struct DaylightFigures {
+    std::size_t count = 0;
+    double factor = 0.0;      ///< mean daylight factor
+    double sufficient = 0.0;  ///< share of the points with kSufficientHours: sDA
+    double useful = 0.0;      ///< mean share of hours in the two middle ranges
+};
+
+DaylightFigures figures_of(std::span<const DaylightReading> readings);
+
+}  // namespace lumel

@@ -1,0 +1,58 @@
+#pragma once
+// Sky and sun of the occupied hours of a year.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/sky/sky_patches.h"
+#include "scene/sky/weather_file.h"
+
+namespace lumel {
+
+/// Hours of the day, local standard time.
+struct OccupiedHours {
+    int from = 8, to = 18;  ///< 0 ≤ from < to ≤ 24
+};
+
+class DaylightYear {
+public:
+    DaylightYear(const Weather& weather, const OccupiedHours& occupied);
+
+    std::size_t hours() const { return suns_.size(); }
+    /// Index of an hour in Weather::hours.
+    std::size_t number(std::size_t hour) const { return numbers_[hour]; }
+
+    const SkyPatches& patches() const { return patches_; }
+    /// Luminance of a patch in all hours [hours()] [cd/m²].
+    std::span<const float> luminance(std::size_t patch) const
+    {
+        return std::span(luminance_).subspan(patch * hours(), hours());
+    }
+
+    /// The sun of an hour, its light as a part of that from places of a grid.
+    struct Sun {
+        glm::vec3 direction{0.0f, 1.0f, 0.0f};  ///< unit, to it
+        float lux = 0.0f;                       ///< on a plane that faces it; 0 below the horizon
+        std::array<std::uint32_t, 4> place{};   ///< indices into sun_places()
+        std::array<float, 4> weight{};          ///< that add up to 1
+    };
+    const Sun& sun(std::size_t hour) const { return suns_[hour]; }
+    /// Unit directions to the places between which the sun is interpolated.
+    std::span<const glm::vec3> sun_places() const { return places_; }
+
+private:
+    void add_sky(const WeatherHour& hour, const Weather& weather, std::size_t index);
+    void place_suns(double latitude);
+
+    SkyPatches patches_;
+    std::vector<std::size_t> numbers_;
+    std::vector<float> luminance_;  ///< [patches][hours]
+    std::vector<Sun> suns_;         ///< [hours]
+    std::vector<glm::vec3> places_;
+};
+
+}  // namespace lumel

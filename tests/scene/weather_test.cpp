@@ -1,0 +1,235 @@
+// Weather files, the sky of their hours, and its patches.
+
+#include <cmath>
+#include <numbers>
+#include <regex>
+
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include "../support/input_error.h"
+#include "../support/weather_text.h"
+#include "scene/sky/cie_sky.h"
+#include "scene/sky/perez_sky.h"
+#include "scene/sky/sky_patches.h"
+#include "scene/sky/sun.h"
+#include "scene/sky/weather_file.h"
+
+using namespace lumel;
+using namespace lumel::test;
+using support::weather_text;
+using support::WeatherOfHour;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Weather read(const std::string& text)
+{
+    return read_weather(Bytes(text.begin(), text.end()), "year.epw");
+}
+
+std::string error_of(const std::string& text)
+{
+    return input_error_of([&] { read(text); });
+}
+
+const std::string& even_year()
+{
+    static const std::string text = weather_text([](int) {
+        return WeatherOfHour{500.0, 100.0, 50000.0, 11000.0};
+    });
+    return text;
+}
+
+/// The even year with a change in the line of its first hour.
+std::string changed(const std::string& from, const std::string& to)
+{
+    std::string text = even_year();
+    text.replace(text.find(from, text.find("\n2001,") + 1), from.size(), to);
+    return text;
+}
+
+PerezSky sky_of(double direct, double diffuse, double elevation)
+{
+    return {{.direct = direct, .diffuse = diffuse, .day_of_year = 91, .dew_point = 11.0},
+            {0.0, glm::radians(elevation)}};
+}
+
+}  // namespace
+
+TEST(Weather, HasTheHoursAndThePlaceOfItsFile)
+{
+    const Weather weather = read(weather_text([](int hour) {
+        return WeatherOfHour{double(hour % 1000), 0.1 * (hour % 1000), 100.0 * (hour % 1000), 1.0};
+    }));
+    ASSERT_EQ(weather.hours.size(), 8760u);
+    EXPECT_EQ(weather.city, "Test");
+    EXPECT_NEAR(weather.latitude, glm::radians(47.5), 1e-9);
+    EXPECT_NEAR(weather.longitude, glm::radians(19.0), 1e-9);
+    EXPECT_TRUE(weather.has_illuminance);
+    EXPECT_EQ(weather.missing, 0u);
+    const WeatherHour& hour = weather.hours[24 * 31 + 12];  // 1 February, 12 to 13
+    EXPECT_EQ(hour.ends, 13);
+    EXPECT_EQ(hour.day_of_year, 32);
+    EXPECT_EQ(hour.direct, 756.0);
+    EXPECT_NEAR(hour.diffuse, 75.6, 1e-6);
+    EXPECT_EQ(hour.direct_lux, 75600.0);
+    EXPECT_EQ(hour.middle, seconds_since_2000("2001-02-01T12:30+01:00"));
+}
+
+/// At Greenwich on 21 June the sun rises at 3:43 and is highest at 12:02 UTC.
+TEST(Weather, TheMiddleOfItsHoursIsWhereTheSunStands)
+{
+    const Weather weather =
+        read(weather_text([](int) { return WeatherOfHour{}; }, 51.4779, 0.0, 0.0));
+    const std::size_t day = 24 * 171;  // 21 June
+    const auto elevation = [&](std::size_t hour) {
+        return glm::degrees(
+            sun_position(weather.latitude, weather.longitude, weather.hours[day + hour].middle)
+                .elevation);
+    };
+    EXPECT_LT(elevation(2), -5.0);  // 2:30, over an hour before it rises
+    EXPECT_GT(elevation(4), 4.0);   // 4:30
+    EXPECT_NEAR(elevation(11), elevation(12), 0.3);
+    EXPECT_NEAR(elevation(11), 90.0 - 51.4779 + 23.44, 1.5);
+}
+
+TEST(Weather, WithoutIlluminanceIsReadByItsRadiation)
+{
+    for (const double none : {0.0, 999999.0}) {
+        const Weather weather = read(weather_text([&](int) {
+            return WeatherOfHour{500.0, 100.0, none, none};
+        }));
+        EXPECT_FALSE(weather.has_illuminance);
+        EXPECT_EQ(weather.hours[0].diffuse, 100.0);
+    }
+    const Weather gap = read(weather_text([](int hour) {
+        return WeatherOfHour{hour == 7 ? 9999.0 : 500.0, 100.0, 50000.0, 11000.0};
+    }));
+    EXPECT_EQ(gap.missing, 1u);
+    EXPECT_EQ(gap.hours[7].diffuse, 0.0);
+}
+
+TEST(Weather, IsRefusedWithTheLineAtFault)
+{
+    const std::string& whole = even_year();
+    const std::size_t middle = whole.find("\n2001,7,1,1,") + 1;
+    EXPECT_EQ(error_of(whole.substr(0, middle)),
+              "year.epw: line 4352: the file ends after 4344 hours of 8760: it is cut short");
+    EXPECT_EQ(error_of(whole.substr(0, middle + 40)),
+              "year.epw: line 4353: has 13 columns, but an hour has 19 and more: the file is cut "
+              "short");
+    EXPECT_EQ(error_of("LOCATION,Test,-,-,made,0,47,19,1,100\nCOMMENTS 1\n"),
+              "year.epw: line 2: the file ends in its header");
+    EXPECT_EQ(error_of(whole.substr(whole.find("DESIGN"))),
+              "year.epw: line 1: is not a weather file: an EPW file begins with LOCATION, the city "
+              "and its latitude, longitude and time zone");
+    EXPECT_EQ(error_of(changed("500.0", "many")),
+              "year.epw: line 9: \"many00000\" in column 15 is not a number, but the direct normal "
+              "radiation must be");
+    EXPECT_EQ(error_of(changed("500.0", "-50.0")),
+              "year.epw: line 9: the direct normal radiation is below 0");
+    EXPECT_EQ(error_of(changed("2001,1,1,1,", "2001,13,1,1,")),
+              "year.epw: line 9: the month 13 is not between 1 and 12");
+    EXPECT_EQ(error_of(changed("2001,1,1,1,", "2001,1,1,1.5,")),
+              "year.epw: line 9: the hour must be a whole number");
+    EXPECT_NE(error_of(whole + whole.substr(middle)).find("the file has more hours than a year"),
+              std::string::npos);
+    std::string quarters = whole;
+    quarters.replace(quarters.find("DATA PERIODS,1,1"), 16, "DATA PERIODS,1,4");
+    EXPECT_EQ(error_of(quarters),
+              "year.epw: line 8: the file has more than one record per hour; one is read");
+}
+
+TEST(SkyPatches, AreTheHemisphere)
+{
+    EXPECT_EQ(SkyPatches().count(), 145u);
+    for (const std::size_t division : {1u, 2u, 4u}) {
+        const SkyPatches patches(division);
+        double angle = 0.0, projected = 0.0;
+        std::vector<double> parts(145, 0.0);
+        for (std::size_t k = 0; k < patches.count(); ++k) {
+            angle += patches.solid_angle(k);
+            projected += patches.projected(k);
+            parts[patches.whole(k)] += patches.solid_angle(k);
+        }
+        EXPECT_NEAR(angle, 2.0 * kPi, 1e-12);
+        EXPECT_NEAR(projected, kPi, 1e-12);
+        for (std::size_t k = 0; k < parts.size(); ++k)
+            EXPECT_NEAR(parts[k], SkyPatches().solid_angle(k), 1e-12) << k;
+    }
+}
+
+/// The mean over each patch of its own number is that number, if at() and the patches agree.
+TEST(SkyPatches, AreFoundByDirection)
+{
+    for (const std::size_t division : {1u, 2u}) {
+        const SkyPatches patches(division);
+        const std::vector<double> numbers =
+            patches.means([&](const glm::dvec3& to) { return double(patches.at(glm::vec3(to))); });
+        const std::vector<double> wholes = patches.means(
+            [](const glm::dvec3& to) { return double(SkyPatches().at(glm::vec3(to))); });
+        for (std::size_t k = 0; k < patches.count(); ++k) {
+            EXPECT_EQ(numbers[k], double(k));
+            EXPECT_EQ(wholes[k], double(patches.whole(k)));
+        }
+    }
+    const SkyPatches patches;
+    EXPECT_EQ(patches.at({0.0f, -0.01f, 1.0f}), SkyPatches::kNone);
+    EXPECT_EQ(patches.at({0.0f, 1.0f, 0.0f}), 144u);
+    EXPECT_EQ(patches.at(glm::normalize(glm::vec3(0.0f, 0.1f, -1.0f))), 0u);  // north
+    EXPECT_EQ(patches.at(glm::normalize(glm::vec3(1.0f, 0.1f, 0.0f))), 8u);   // east: 90° / 12°
+}
+
+TEST(SkyPatches, GiveAnOpenPlaneTheLightOfTheOvercastSky)
+{
+    // ∫ (1 + 2 cos Z) cos Z dω = 7π/3
+    const SkyPatches patches(2);
+    const std::vector<double> luminance =
+        patches.means([](const glm::dvec3& to) { return cie_luminance(kOvercastType, to.y, 0.0); });
+    double sum = 0.0;
+    for (std::size_t k = 0; k < luminance.size(); ++k)
+        sum += luminance[k] * patches.projected(k);
+    EXPECT_NEAR(sum, 7.0 * kPi / 3.0, 0.002 * 7.0 * kPi / 3.0);
+}
+
+/// [PISMS90] (1), (2), (7) and (8) by hand, for the sun at 30°: Z = π/3, 1.041 Z³ = 1.19544,
+/// m = 1.994, W = 2.0038 cm.
+TEST(PerezSky, HasTheClearnessBrightnessAndEfficacyOfItsEquations)
+{
+    const PerezSky clear = sky_of(800.0, 80.0, 30.0);
+    EXPECT_NEAR(clear.clearness(), (11.0 + 1.19544) / 2.19544, 1e-4);  // 5.555: bin 7
+    EXPECT_NEAR(clear.brightness(), 1.994 * 80.0 / 1367.0, 2e-4);
+    EXPECT_NEAR(clear.diffuse_efficacy(),
+                141.88 + 1.90 * 2.0038 - 53.24 * 0.5 - 14.03 * std::log(1.994 * 80.0 / 1367.0),
+                0.05);
+    EXPECT_NEAR(clear.direct_efficacy(),
+                105.75 + 0.77 * 2.0038 - 1.26 * std::exp(5.73 * kPi / 3.0 - 5.0) -
+                    34.44 * 1.994 * 80.0 / 1367.0,
+                0.05);
+    EXPECT_EQ(sky_of(0.0, 100.0, 30.0).clearness(), 1.0);
+    // The mean of clear days by the IES and this agree within what skies differ.
+    EXPECT_NEAR(clear.direct_efficacy(), 100.0, 10.0);
+    EXPECT_NEAR(sky_of(0.0, 150.0, 40.0).diffuse_efficacy(), 115.0, 10.0);
+}
+
+TEST(PerezSky, IsBrightestAboutAClearSunAndAtAnOvercastZenith)
+{
+    const PerezSky clear = sky_of(850.0, 70.0, 40.0), overcast = sky_of(0.0, 0.01, 40.0);
+    const double at_zenith = glm::radians(50.0);
+    EXPECT_GT(clear.luminance(std::cos(at_zenith), glm::radians(3.0)),
+              8.0 * clear.luminance(1.0, at_zenith));
+    // Darkest about a right angle from the sun.
+    const auto across = [&](double elevation) {  // on the sun's meridian, beyond the zenith
+        return clear.luminance(std::sin(glm::radians(elevation)),
+                               glm::radians(180.0 - 40.0 - elevation));
+    };
+    EXPECT_LT(across(50.0), across(10.0));
+    EXPECT_LT(across(50.0), clear.luminance(std::sin(glm::radians(60.0)), glm::radians(20.0)));
+    // By hand for Δ → 0 and Z = 50°: a = 1.1277, b = -0.766, c = 0, e = -0.0731; zenith against 10°
+    // at a right angle from the sun.
+    const double gradient = overcast.luminance(1.0, at_zenith) /
+                            overcast.luminance(std::sin(glm::radians(10.0)), glm::radians(90.0));
+    EXPECT_NEAR(gradient, 1.5242 * (1.0 - 0.0731 * 0.4132) / 1.0137, 0.003);
+}
