@@ -45,6 +45,16 @@ double noise_of(const Of& of)
     return standard_error(squares);
 }
 
+/// For a sun of 1 lx, by the coefficients of its places.
+float reflected_sun(std::span<const DaylightYear::Sun::Share> shares,
+                    std::span<const float> of_places)
+{
+    float sum = 0.0f;
+    for (const DaylightYear::Sun::Share& share : shares)
+        sum += share.weight * of_places[share.place];
+    return sum;
+}
+
 }  // namespace
 
 DaylightMeter::DaylightMeter(const LightMeter& meter, const DaylightYear& year,
@@ -130,8 +140,7 @@ std::vector<float> DaylightMeter::hours(const MeterPoint& point, std::uint32_t n
         const DaylightYear::Sun& sun = year_.sun(h);
         if (!(sun.lux > 0.0f))
             continue;
-        for (std::size_t k = 0; k < sun.place.size(); ++k)
-            lux[h] += sun.lux * sun.weight[k] * coefficients[patches_ + sun.place[k]];
+        lux[h] += sun.lux * reflected_sun(sun.near, coefficients.subspan(patches_));
         lux[h] += direct_sun(point, number, h);
     }
     return lux;
@@ -142,13 +151,20 @@ HourReading DaylightMeter::hour(const MeterPoint& point, std::uint32_t number,
 {
     const DaylightYear::Sun& sun = year_.sun(hour);
     std::vector<float> weights(coefficients.mean.size(), 0.0f);
+    const auto noise_by = [&](std::span<const float> by) {
+        return noise_of([&](std::size_t set) { return product(coefficients.of_sets[set], by); });
+    };
     for (std::size_t k = 0; k < patches_; ++k)
         weights[k] = year_.luminance(k)[hour];
-    for (std::size_t k = 0; sun.lux > 0.0f && k < sun.place.size(); ++k)
-        weights[patches_ + sun.place[k]] += sun.lux * sun.weight[k];
+    if (!(sun.lux > 0.0f))
+        return {.lux = product(coefficients.mean, weights), .noise = noise_by(weights)};
+    for (const DaylightYear::Sun::Share& share : sun.near)
+        weights[patches_ + share.place] += sun.lux * share.weight;
+    const std::span<const float> of_places = std::span(coefficients.mean).subspan(patches_);
     return {.lux = product(coefficients.mean, weights) + double(direct_sun(point, number, hour)),
-            .noise = noise_of(
-                [&](std::size_t set) { return product(coefficients.of_sets[set], weights); })};
+            .noise = noise_by(weights),
+            .interpolation = double(sun.lux * std::abs(reflected_sun(sun.near, of_places) -
+                                                       reflected_sun(sun.wide, of_places)))};
 }
 
 DaylightReading DaylightMeter::read(const MeterPoint& point, std::uint32_t number,

@@ -2,6 +2,7 @@
 // Daylight at a point: of one hour, and figures over the occupied hours of a year.
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -35,7 +36,12 @@ struct DaylightReading {
 /// Illuminance of an hour.
 struct HourReading {
     double lux = 0.0;
-    double noise = 0.0;  ///< standard error by the rays alone [lx]
+    double noise = 0.0;  ///< standard error by the rays of the point alone [lx]
+    /// Of the sun's reflected light, by how much its place between others matters: an upper
+    /// estimate of that error [lx].
+    double interpolation = 0.0;
+
+    double error() const { return std::hypot(noise, interpolation); }
 };
 
 /// Thread-safe.

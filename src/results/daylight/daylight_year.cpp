@@ -24,8 +24,8 @@ namespace {
 /// Parts of an angle of a patch for light that is not reflected: patches of 6°.
 constexpr std::size_t kDivision = 2;
 constexpr double kDegree = std::numbers::pi / 180.0;
-/// Steps of the grid: an hour of the sun's way, and a sixth of the range of declination.
-constexpr double kHourStep = 15.0 * kDegree;
+/// Steps of the grid: half an hour of the sun's way, and a sixth of the range of declination.
+constexpr double kHourStep = 7.5 * kDegree;
 constexpr double kObliquity = 23.44 * kDegree;
 constexpr double kDeclinationStep = kObliquity / 3.0;
 
@@ -112,18 +112,24 @@ void DaylightYear::place_suns(double latitude)
                 celestial.direction_of(declination * kDeclinationStep, hour_angle * kHourStep));
         return at->second;
     };
+    const auto shares_of = [&](const glm::dvec2& at, int step) {
+        const glm::dvec2 low = glm::floor(at / double(step)), part = at / double(step) - low;
+        std::array<Sun::Share, 4> shares;
+        for (int k = 0; k < 4; ++k) {
+            const int i = k / 2, j = k % 2;
+            shares[std::size_t(k)] = {
+                number_of(step * (int(low.x) + i), step * (int(low.y) + j)),
+                float((i ? part.x : 1.0 - part.x) * (j ? part.y : 1.0 - part.y))};
+        }
+        return shares;
+    };
     for (Sun& sun : suns_) {
         if (!(sun.lux > 0.0f))
             continue;
         const glm::dvec2 at = celestial.angles_of(glm::dvec3(sun.direction)) /
                               glm::dvec2(kDeclinationStep, kHourStep);
-        const glm::dvec2 low = glm::floor(at), part = at - low;
-        for (int k = 0; k < 4; ++k) {
-            const int i = k / 2, j = k % 2;
-            sun.place[std::size_t(k)] = number_of(int(low.x) + i, int(low.y) + j);
-            sun.weight[std::size_t(k)] =
-                float((i ? part.x : 1.0 - part.x) * (j ? part.y : 1.0 - part.y));
-        }
+        sun.near = shares_of(at, 1);
+        sun.wide = shares_of(at, 2);
     }
 }
 

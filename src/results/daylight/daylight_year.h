@@ -37,8 +37,13 @@ public:
     struct Sun {
         glm::vec3 direction{0.0f, 1.0f, 0.0f};  ///< unit, to it
         float lux = 0.0f;                       ///< on a plane that faces it; 0 below the horizon
-        std::array<std::uint32_t, 4> place{};   ///< indices into sun_places()
-        std::array<float, 4> weight{};          ///< that add up to 1
+        struct Share {
+            std::uint32_t place;  ///< index into sun_places()
+            float weight;         ///< that add up to 1
+        };
+        std::array<Share, 4> near{};
+        /// Of a grid twice as wide, which tells the error of interpolation.
+        std::array<Share, 4> wide{};
     };
     const Sun& sun(std::size_t hour) const { return suns_[hour]; }
     /// Unit directions to the places between which the sun is interpolated.

@@ -1,5 +1,5 @@
 // Daylight coefficients [TW83] of lumels. Direct light of patch k of the sky, by R rays of density
-// cosθ / π, and of the sun at a place s by a shadow ray, with the transmittance τ of glass:
+// cosθ / π, and of the sun at a place s by shadow rays, with the transmittance τ of glass:
 //
 //     D_k = π/R Σ τ over the rays that leave through k,        D_s = τ cosθ_s
 //
@@ -9,8 +9,13 @@
 
 #include "results/daylight/reflected_daylight.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "atlas/cells/ray_origins.h"
 #include "base/core/error.h"
+#include "base/core/luminance.h"
 #include "base/core/parallel.h"
 #include "base/core/pi.h"
 #include "base/core/usage.h"
@@ -22,6 +27,8 @@ namespace lumel {
 namespace {
 
 constexpr std::size_t kDaylitPerTask = 64, kLanesPerTask = 4096;
+/// Shadow rays of a lumel to a place of the sun, and where these differ.
+constexpr std::uint32_t kFewSunRays = 4, kManySunRays = 32;
 /// Dimension pairs of a ray's random numbers.
 constexpr std::uint32_t kStartPair = 0, kWayPair = 1, kGlassPair = 2;
 
@@ -47,18 +54,41 @@ public:
             options_.seed, lumel_key(scene_.lumels.lumels[lumel], scene_.lumels.width));
         for (std::uint32_t k = 0; k < options_.sky_rays; ++k)
             add_sky(lumel, PathSamples(stream, k), light);
-        const std::uint32_t of_suns = PathSamples::hash(stream, 1);
-        for (std::uint32_t s = 0; s < places_.size(); ++s) {
-            const PathSamples samples(of_suns, s);
-            const RayOrigin start = starts_.start(lumel, samples.stratified(kStartPair));
-            if (const float cosine = start.cosine(places_[s]); cosine > 0.0f)
-                light[patches_.count() + s] +=
-                    cosine * scene_.rays.transmittance_out(start.position, places_[s],
-                                                           samples.bits(kGlassPair));
-        }
+        for (std::uint32_t s = 0; s < places_.size(); ++s)
+            light[patches_.count() + s] += sun(lumel, s, stream);
     }
 
 private:
+    /// Where a few rays differ, starts over with many: discarding the few keeps it unbiased.
+    glm::vec3 sun(std::size_t lumel, std::uint32_t place, std::uint32_t stream) const
+    {
+        const std::uint32_t few = PathSamples::hash(stream, 2 * place + 1),
+                            many = PathSamples::hash(stream, 2 * place + 2);
+        float low = std::numeric_limits<float>::max(), high = 0.0f;
+        glm::vec3 sum(0.0f);
+        for (std::uint32_t k = 0; k < kFewSunRays; ++k) {
+            const glm::vec3 light = sun_by(lumel, places_[place], PathSamples(few, k));
+            low = std::min(low, sum_of(light));
+            high = std::max(high, sum_of(light));
+            sum += light;
+        }
+        if (low > 0.0f || high == 0.0f)
+            return sum / float(kFewSunRays);
+        sum = glm::vec3(0.0f);
+        for (std::uint32_t k = 0; k < kManySunRays; ++k)
+            sum += sun_by(lumel, places_[place], PathSamples(many, k));
+        return sum / float(kManySunRays);
+    }
+
+    glm::vec3 sun_by(std::size_t lumel, const glm::vec3& place, const PathSamples& samples) const
+    {
+        const RayOrigin start = starts_.start(lumel, samples.stratified(kStartPair));
+        const float cosine = start.cosine(place);
+        return cosine > 0.0f ? cosine * scene_.rays.transmittance_out(start.position, place,
+                                                                      samples.bits(kGlassPair))
+                             : glm::vec3(0.0f);
+    }
+
     void add_sky(std::size_t lumel, const PathSamples& samples, glm::vec3* light) const
     {
         const RayOrigin start = starts_.start(lumel, samples.stratified(kStartPair));

@@ -81,21 +81,21 @@ constexpr std::array<PerezTerms, kBins> kTerms = {{
 /// [PISMS90] table 4: a, b, c, d.
 using Efficacy = std::array<double, 4>;
 constexpr std::array<Efficacy, kBins> kDiffuseEfficacy = {{{97.24, -0.46, 12.00, -8.91},
-                                                   {107.22, 1.15, 0.59, -3.95},
-                                                   {104.97, 2.96, -5.53, -8.77},
-                                                   {102.39, 5.59, -13.95, -13.90},
-                                                   {100.71, 5.94, -22.75, -23.74},
-                                                   {106.42, 3.83, -36.15, -28.83},
-                                                   {141.88, 1.90, -53.24, -14.03},
-                                                   {152.23, 0.35, -45.27, -7.98}}};
+                                                           {107.22, 1.15, 0.59, -3.95},
+                                                           {104.97, 2.96, -5.53, -8.77},
+                                                           {102.39, 5.59, -13.95, -13.90},
+                                                           {100.71, 5.94, -22.75, -23.74},
+                                                           {106.42, 3.83, -36.15, -28.83},
+                                                           {141.88, 1.90, -53.24, -14.03},
+                                                           {152.23, 0.35, -45.27, -7.98}}};
 constexpr std::array<Efficacy, kBins> kDirectEfficacy = {{{57.20, -4.55, -2.98, 117.12},
-                                                  {98.99, -3.46, -1.21, 12.38},
-                                                  {109.83, -4.90, -1.71, -8.81},
-                                                  {110.34, -5.84, -1.99, -4.56},
-                                                  {106.36, -3.97, -1.75, -6.16},
-                                                  {107.19, -1.25, -1.51, -26.73},
-                                                  {105.75, 0.77, -1.26, -34.44},
-                                                  {101.18, 1.58, -1.10, -8.29}}};
+                                                          {98.99, -3.46, -1.21, 12.38},
+                                                          {109.83, -4.90, -1.71, -8.81},
+                                                          {110.34, -5.84, -1.99, -4.56},
+                                                          {106.36, -3.97, -1.75, -6.16},
+                                                          {107.19, -1.25, -1.51, -26.73},
+                                                          {105.75, 0.77, -1.26, -34.44},
+                                                          {101.18, 1.58, -1.10, -8.29}}};
 
 /// Optical air mass by F. Kasten, A. T. Young, Applied Optics 28(22), 1989.
 double air_mass(double elevation)
@@ -119,18 +119,21 @@ PerezSky::PerezSky(const Radiation& radiation, const SunPosition& sun)
 {
     const double cube = 1.041 * zenith_ * zenith_ * zenith_;
     const double diffuse = radiation.diffuse;
-    clearness_ = ((diffuse + radiation.direct) / diffuse + cube) / (1.0 + cube);
-    brightness_ =
-        air_mass(std::max(sun.elevation, 0.0)) * diffuse / outside_of_air(radiation.day_of_year);
+    // Bounds of the data of [PSM93], as in Radiance's gendaylit: beyond them the fit is negative.
+    constexpr double kLeastBrightness = 0.01, kMostBrightness = 0.6, kMostClearness = 12.01;
+    clearness_ =
+        std::min(((diffuse + radiation.direct) / diffuse + cube) / (1.0 + cube), kMostClearness);
+    brightness_ = std::clamp(air_mass(std::max(sun.elevation, 0.0)) * diffuse /
+                                 outside_of_air(radiation.day_of_year),
+                             kLeastBrightness, kMostBrightness);
     bin_ = std::size_t(std::upper_bound(kClearness.begin(), kClearness.end(), clearness_) -
                        kClearness.begin());
-    // Dark skies of middling clearness do not occur in the data of [PSM93]; the fit is negative
-    // there. Bounded as in Radiance's gendaylit.
-    constexpr double kLeastBrightness = 0.2;
+    // Nor are there dark skies of middling clearness.
+    constexpr double kLeastOfMiddling = 0.2;
     constexpr std::size_t kFirstMiddling = 1, kLastMiddling = 4;
     double delta = brightness_;
     if (bin_ >= kFirstMiddling && bin_ <= kLastMiddling)
-        delta = std::max(delta, kLeastBrightness);
+        delta = std::max(delta, kLeastOfMiddling);
     const auto term = [&](const std::array<double, 4>& x) {
         return x[0] + x[1] * zenith_ + delta * (x[2] + x[3] * zenith_);
     };

@@ -18,7 +18,7 @@ struct Radiation {
 };
 
 /// The sky of [PSM93] and the luminous efficacy of [PISMS90]. A sun below the horizon counts as on
-/// it.
+/// it; clearness and brightness are kept within the bounds of the data.
 class PerezSky {
 public:
     PerezSky(const Radiation& radiation, const SunPosition& sun);

@@ -1,0 +1,269 @@
+// Daylight over a year: hours against single bakes of the same hour, and figures that are known.
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/trigonometric.hpp>
+
+#include "../support/box_lumels.h"
+#include "../support/weather_text.h"
+#include "base/core/luminance.h"
+#include "links/trace/links.h"
+#include "results/daylight/daylight_meter.h"
+#include "scene/sky/cie_sky.h"
+#include "scene/sky/clear_sky.h"
+#include "scene/sky/perez_sky.h"
+#include "solved.h"
+
+namespace lumel {
+namespace {
+
+using support::Quad;
+using support::weather_text;
+using support::WeatherOfHour;
+
+constexpr double kHalfTurn = std::numbers::pi;
+constexpr std::uint32_t kSamples = 1 << 15;
+
+Weather weather_of(const std::string& text)
+{
+    return read_weather(Bytes(text.begin(), text.end()), "made.epw");
+}
+
+/// Meters of a scene.
+class Site {
+public:
+    Site(Scene scene, int size, const Weather& weather, const OccupiedHours& occupied = {})
+        : scene_(std::move(scene), {.size = size}),
+          dark_(scene_.lumels.lumels.size(), glm::vec3(0.0f)),
+          year_(weather, occupied),
+          reflected_(scene_, year_.sun_places(), {}),
+          meter_(scene_.scene, scene_.rays, scene_.atlas, scene_.lumels, dark_,
+                 {.samples = kSamples}),
+          daylight_(meter_, year_, reflected_, 1)
+    {
+    }
+
+    const SolveScene& scene() const { return scene_; }
+    const DaylightYear& year() const { return year_; }
+    const DaylightMeter& daylight() const { return daylight_; }
+    MeterPoint point(const glm::dvec3& place) const
+    {
+        return {.position = glm::vec3(place - scene_.scene.origin)};
+    }
+    DaylightReading read(const glm::dvec3& place, double target = 300.0) const
+    {
+        return daylight_.read(point(place), 0, target);
+    }
+
+private:
+    SolveScene scene_;
+    std::vector<glm::vec3> dark_;
+    DaylightYear year_;
+    ReflectedDaylight reflected_;
+    LightMeter meter_;
+    DaylightMeter daylight_;
+};
+
+/// Black ground far below.
+Scene open_place()
+{
+    return support::make_quads({{.corner = {0.0f, -1.0f, 0.0f},
+                                 .edge_u = {0.1f, 0.0f, 0.0f},
+                                 .edge_v = {0.0f, 0.0f, -0.1f},
+                                 .albedo = glm::vec3(0.0f)}})
+        .scene;
+}
+
+/// A clear hour at noon and a grey one, else a fine sky with some sun.
+WeatherOfHour mixed(int hour)
+{
+    const int of_day = hour % 24;
+    if (of_day < 6 || of_day > 18)
+        return {};
+    const double up = std::sin(kHalfTurn * (of_day - 6) / 12.0);
+    return hour / 24 % 2 == 0 ? WeatherOfHour{.direct = 700.0 * up, .diffuse = 30.0 + 70.0 * up}
+                              : WeatherOfHour{.diffuse = 20.0 + 130.0 * up};
+}
+
+/// The sky of an hour as an image, by each texel's own direction.
+Sky image_of_hour(const Weather& weather, const WeatherHour& hour)
+{
+    const SunPosition sun = sun_position(weather.latitude, weather.longitude, hour.middle);
+    const PerezSky perez({hour.direct, hour.diffuse, hour.day_of_year, hour.dew_point}, sun);
+    Sky sky{.width = 512, .height = 256};
+    sky.radiance.assign(std::size_t(sky.width) * std::size_t(sky.height), glm::vec3(0.0f));
+    const glm::dvec3 to_sun(direction_of(sun));
+    for (int row = 0; row < sky.height / 2; ++row)
+        for (int column = 0; column < sky.width; ++column) {
+            const double zenith = kHalfTurn * (row + 0.5) / sky.height;
+            const double phi = 2.0 * kHalfTurn * (column + 0.5) / sky.width;
+            const glm::dvec3 to(-std::cos(phi) * std::sin(zenith), std::cos(zenith),
+                                -std::sin(phi) * std::sin(zenith));
+            sky.radiance[std::size_t(row * sky.width + column)] = glm::vec3(float(
+                perez.luminance(to.y, std::acos(std::clamp(glm::dot(to, to_sun), -1.0, 1.0)))));
+        }
+    const double level =
+        hour.diffuse * perez.diffuse_efficacy() / luminance(glm::vec3(sky_irradiance(sky)));
+    for (glm::vec3& radiance : sky.radiance)
+        radiance *= float(level);
+    return sky;
+}
+
+/// The office by day, its panels off.
+Scene unlit_office()
+{
+    Scene office = read_scene(support::scene_path("office"), MaterialModel::diffuse, {});
+    office.lights.clear();
+    for (Material& material : office.materials)
+        material.emitted = glm::vec3(0.0f);
+    return office;
+}
+
+}  // namespace
+
+TEST(Daylight, OfAnOpenPointIsAllOfThatOutdoors)
+{
+    const Weather weather = weather_of(weather_text(mixed));
+    const Site open(open_place(), 16, weather);
+    const DaylightReading reading = open.read({0.0, 0.0, 0.0});
+    EXPECT_NEAR(reading.factor, 1.0, 0.005);
+    EXPECT_LT(reading.factor_noise, 0.005);
+    const DaylightCoefficients found = open.daylight().coefficients(open.point({}), 0);
+    for (std::size_t h = 0; h < open.year().hours(); h += 97) {
+        const WeatherHour& hour = weather.hours[open.year().number(h)];
+        const SunPosition sun = sun_position(weather.latitude, weather.longitude, hour.middle);
+        if (!(hour.diffuse > 0.0))
+            continue;
+        const PerezSky sky({hour.direct, hour.diffuse, hour.day_of_year, hour.dew_point}, sun);
+        double expected = hour.diffuse * sky.diffuse_efficacy();
+        if (sun.elevation > 0.0)
+            expected += hour.direct * sky.direct_efficacy() * std::sin(sun.elevation);
+        const HourReading read = open.daylight().hour(open.point({}), 0, found, h);
+        // The disc of the sun is 0.53° wide: at 10° its light varies by 5 % over it.
+        EXPECT_NEAR(read.lux, expected, 0.01 * expected + 0.005 * 1e5 * std::cos(sun.elevation))
+            << h;
+    }
+}
+
+/// Under a screen with a hole, a black room has the overcast sky's light through the hole alone.
+TEST(Daylight, ThroughAHoleIsItsSkyComponent)
+{
+    constexpr float kHalf = 0.5f, kFar = 20.0f;  // of the hole, of the screen [m], 1 m above
+    const auto part = [&](float x1, float x2, float z1, float z2) {
+        return Quad{.corner = {x1, 1.0f, z1},
+                    .edge_u = {x2 - x1, 0.0f, 0.0f},
+                    .edge_v = {0.0f, 0.0f, z2 - z1},
+                    .albedo = glm::vec3(0.0f)};
+    };
+    const Site site(support::make_quads({part(-kFar, -kHalf, -kFar, kFar),
+                                         part(kHalf, kFar, -kFar, kFar),
+                                         part(-kHalf, kHalf, -kFar, -kHalf),
+                                         part(-kHalf, kHalf, kHalf, kFar),
+                                         {.corner = {-kFar, -0.1f, kFar},
+                                          .edge_u = {2.0f * kFar, 0.0f, 0.0f},
+                                          .edge_v = {0.0f, 0.0f, -2.0f * kFar},
+                                          .albedo = glm::vec3(0.0f)}})
+                        .scene,
+                    32, weather_of(weather_text(mixed)));
+    for (const double x : {0.0, 0.9}) {
+        // Σ L cos²Z dA / r², with cos Z = 1 / r, and L = 9 / (7π) (1 + 2 cos Z) / 3 for 1 lx.
+        constexpr int kParts = 400;
+        double expected = 0.0;
+        for (int i = 0; i < kParts; ++i)
+            for (int j = 0; j < kParts; ++j) {
+                const double u = (i + 0.5) / kParts - 0.5 - x, v = (j + 0.5) / kParts - 0.5;
+                const double squared = u * u + v * v + 1.0, cosine = 1.0 / std::sqrt(squared);
+                expected += 9.0 / (7.0 * kHalfTurn) * (1.0 + 2.0 * cosine) / 3.0 * cosine * cosine /
+                            squared / (double(kParts) * kParts);
+            }
+        const DaylightReading reading = site.read({x, 0.0, 0.0});
+        EXPECT_NEAR(reading.factor, expected, 4.0 * reading.factor_noise + 0.01 * expected) << x;
+        EXPECT_LT(reading.factor_noise, 0.01 * expected);
+    }
+}
+
+/// In a white box without a lid the light of both is the same, bounces and all, whichever way.
+TEST(Daylight, AutonomyIsTheShareOfHoursWithEnoughLight)
+{
+    // 1,000 lx on three days of ten, 200 on two, 50 on one, none on the others.
+    constexpr double kLux[] = {1000.0, 1000.0, 1000.0, 200.0, 200.0, 50.0, 0.0, 0.0, 0.0, 0.0};
+    std::array<double, 4> days{};
+    for (int day = 0; day < 365; ++day)
+        days[kLux[day % 10] > 300.0 ? 2 : kLux[day % 10] > 100.0 ? 1 : 0] += 1.0 / 365.0;
+    const Weather weather = weather_of(weather_text([&](int hour) {
+        const double lux = kLux[hour / 24 % 10];
+        return WeatherOfHour{.diffuse = 0.01 * lux, .diffuse_lux = lux};
+    }));
+    const Site open(open_place(), 16, weather);
+    ASSERT_EQ(open.year().hours(), 3650u);
+    const DaylightReading reading = open.read({0.0, 0.0, 0.0});
+    EXPECT_NEAR(reading.autonomy, days[2], 1e-9);
+    for (std::size_t k = 0; k < days.size(); ++k)
+        EXPECT_NEAR(reading.useful[k], days[k], 1e-9) << k;
+    EXPECT_NEAR(reading.mean_lux, 1000.0 * days[2] + 200.0 * days[1] + 50.0 * (36.0 / 365.0), 3.0);
+    EXPECT_NEAR(open.read({0.0, 0.0, 0.0}, 150.0).autonomy, days[1] + days[2], 1e-9);
+    // A point counts from half of the hours on.
+    const std::array<DaylightReading, 3> points = {
+        DaylightReading{.autonomy = 0.5}, DaylightReading{.autonomy = 0.49},
+        DaylightReading{.autonomy = 1.0, .inside = true}};
+    EXPECT_EQ(figures_of(points).sufficient, 0.5);
+}
+
+TEST(Daylight, HoursOfTheDayAreLocal)
+{
+    const Weather weather = weather_of(weather_text([](int hour) {
+        return hour % 24 == 8 ? WeatherOfHour{.diffuse = 10.0, .diffuse_lux = 1000.0}
+                              : WeatherOfHour{};  // from 8 to 9
+    }));
+    EXPECT_NEAR(Site(open_place(), 16, weather, {8, 10}).read({}).autonomy, 0.5, 1e-9);
+    EXPECT_NEAR(Site(open_place(), 16, weather, {9, 10}).read({}).autonomy, 0.0, 1e-9);
+}
+
+/// Of the sun's light only that reflected is interpolated, and the sky is in patches: both within
+/// what single bakes state and the rays of the meters.
+TEST(Daylight, OfAnHourIsThatOfABakeOfTheSameHour)
+{
+    constexpr int kSize = 64;
+    constexpr double kBake = 0.02;
+    const Weather weather = weather_of(weather_text(mixed));
+    const Site site(unlit_office(), kSize, weather);
+    const glm::dvec3 places[] = {{1.0, 0.85, 2.5}, {3.0, 0.85, 1.9}, {6.0, 0.85, 3.0}};
+    std::vector<DaylightCoefficients> found;
+    for (const glm::dvec3& place : places)
+        found.push_back(site.daylight().coefficients(site.point(place), 0));
+    // A clear afternoon in May, when the sun shines in, a grey noon, and a clear winter's day.
+    for (const std::size_t wanted : {24u * 136 + 16, 24u * 101 + 12, 24u * 350 + 13}) {
+        std::size_t h = 0;
+        while (site.year().number(h) != wanted)
+            ++h;
+        Scene scene = unlit_office();
+        scene.sky = image_of_hour(weather, weather.hours[wanted]);
+        if (site.year().sun(h).lux > 0.0f) {
+            scene.lights.push_back(sun_light(
+                sun_position(weather.latitude, weather.longitude, weather.hours[wanted].middle)));
+            scene.lights.back().intensity = site.year().sun(h).lux;
+        }
+        const SolveScene world(std::move(scene), {.size = kSize});
+        SolverOptions options;
+        options.method = LinksOptions{};
+        options.target_error = kBake;
+        options.target_quality = {};
+        LinkRadiosity solver(world, LinksOptions{}, options.limits());
+        ASSERT_TRUE(solve(solver, options));
+        const std::vector<glm::vec3> light = solver.irradiance();
+        const LightMeter meter(world.scene, world.rays, world.atlas, world.lumels, light,
+                               {.samples = kSamples});
+        for (std::size_t p = 0; p < std::size(places); ++p) {
+            const HourReading hour = site.daylight().hour(site.point(places[p]), 0, found[p], h);
+            const Reading single = meter.read(site.point(places[p]), 0);
+            const double stated = std::hypot(hour.error(), single.noise, kBake * single.lux);
+            printf("hour %zu point %zu: %.1f ± %.2f, single %.1f ± %.2f: %.2f %% (%.2f stated)\n",
+                   wanted, p, hour.lux, hour.error(), single.lux, single.noise,
+                   100 * (hour.lux / single.lux - 1), (hour.lux - single.lux) / stated);
+            EXPECT_NEAR(hour.lux, single.lux, 3.0 * stated) << wanted << ", place " << p;
+        }
+    }
+}
+
+}  // namespace lumel
