@@ -15,6 +15,7 @@ void read_image(Input input);       ///< PNG, JPEG
 void read_hdr(Input input);         ///< Radiance
 void read_exr(Input input);         ///< OpenEXR
 void read_ies(Input input);         ///< IES LM-63
+void read_weather(Input input);     ///< weather of a year, EPW
 void read_solution(Input input);    ///< solution.exr
 void read_report(Input input);      ///< report.json
 void read_states(Input input);      ///< states.json
@@ -30,21 +31,14 @@ struct Reader {
     void (*read)(Input);
 };
 inline constexpr Reader kReaders[] = {
-    {"glb", read_glb},
-    {"rewrite", rewrite_glb},
-    {"image", read_image},
-    {"hdr", read_hdr},
-    {"exr", read_exr},
-    {"ies", read_ies},
-    {"solution", read_solution},
-    {"report", read_report},
-    {"states", read_states},
-    {"lamps", read_lamps},
-    {"matrix", read_matrix},
-    {"links", read_links},
-    {"checkpoint", read_checkpoint},
-    {"script", read_script},
-    {"text", read_text},
+    {"glb", read_glb},         {"rewrite", rewrite_glb},
+    {"image", read_image},     {"hdr", read_hdr},
+    {"exr", read_exr},         {"ies", read_ies},
+    {"weather", read_weather}, {"solution", read_solution},
+    {"report", read_report},   {"states", read_states},
+    {"lamps", read_lamps},     {"matrix", read_matrix},
+    {"links", read_links},     {"checkpoint", read_checkpoint},
+    {"script", read_script},   {"text", read_text},
 };
 
 /// Reads the input. Aborts unless it is read or refused by Error{input} with one line; what else is

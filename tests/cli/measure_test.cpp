@@ -1,11 +1,13 @@
 // lumel measure, from outside.
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../support/weather_text.h"
 #include "edited_scene.h"
 #include "jobs/inspect/room_report.h"
 #include "program.h"
@@ -149,6 +151,74 @@ TEST(Measure, RefusesWhatItCannotUse)
     expect_one_sentence(
         run_lumel({"bake", own_scene("city.gltf"), bake.place.path("x"), "--sky", "overcast:-1"}),
         2, {"--sky", "overcast:LUX"});
+}
+
+/// Overcast days of which those before April have 100 lx outdoors, the others 20,000 lx.
+std::string two_seasons()
+{
+    constexpr int kWinterHours = 24 * 90;
+    return support::weather_text([](int hour) {
+        return hour < kWinterHours
+                   ? support::WeatherOfHour{.diffuse = 1.0, .diffuse_lux = 100.0}
+                   : support::WeatherOfHour{.diffuse = 200.0, .diffuse_lux = 20000.0};
+    });
+}
+
+TEST(Measure, DaylightOverAYearIsListedWithItsPlane)
+{
+    const Bake bake("office.gltf", {"--shots", "48"});
+    const std::string weather = bake.place.file("made.epw", two_seasons());
+    const std::string table = bake.place.path("plane.csv");
+    const std::vector<std::string> command = {
+        "--plane", "0.85",      "--bounds", "0.5,1.5,1.5,3.5", "--spacing", "0.5",   "--samples",
+        "1024",    "--weather", weather,    "--hours",         "10-16",     "--csv", table};
+    const Json report = bake.json(command);
+    EXPECT_EQ(report["year"]["hours"], 6 * 365);
+    EXPECT_EQ(report["year"]["target"], 300.0);
+    ASSERT_EQ(report["points"].size(), 8u);
+    for (const Json& point : report["points"]) {
+        // Near the window a few per cent of 20,000 lx are enough, and of 100 lx are not.
+        EXPECT_GT(point["daylight_factor"].get<double>(), 1.5) << point;
+        EXPECT_LT(point["daylight_factor"].get<double>(), 40.0) << point;
+        EXPECT_NEAR(point["year"]["autonomy"].get<double>(), 100.0 * 275.0 / 365.0, 1e-9);
+        EXPECT_NEAR(point["year"]["useful"]["below_100"].get<double>(), 100.0 * 90.0 / 365.0, 1e-9);
+    }
+    EXPECT_EQ(report["plane"]["sufficient_daylight"], 100.0);
+    const std::vector<std::string> lines = lines_of(bytes_of(table));
+    ASSERT_EQ(lines.size(), 9u);
+    EXPECT_TRUE(lines[0].ends_with(
+        ",daylight_factor_percent,autonomy_percent,useful_below_100_percent,"
+        "useful_100_to_300_percent,useful_300_to_3000_percent,useful_above_3000_percent,"
+        "mean_daylight_lx"))
+        << lines[0];
+    for (const std::string& line : lines)
+        EXPECT_EQ(std::count(line.begin(), line.end(), ','), 14) << line;
+    const Outcome printed = bake.measure(command);
+    EXPECT_NE(printed.out.find("sDA 300 lx, 50 % of 2190 hours: 100.0 % of the points"),
+              std::string::npos)
+        << printed.out;
+    EXPECT_NE(printed.out.find("with the illuminance of the file"), std::string::npos);
+}
+
+TEST(Measure, AWeatherFileCutShortIsOneSentenceAndNothingIsWritten)
+{
+    const Bake bake("cornell-box.gltf", {"--shots", "16"});
+    const std::string whole = two_seasons();
+    const std::string cut = bake.place.file("cut.epw", whole.substr(0, whole.size() / 2));
+    const std::vector<std::string> before = bake.place.listing();
+    const auto refused = [&](const std::vector<std::string>& more,
+                             const std::vector<std::string>& words) {
+        expect_one_sentence(bake.measure(more), 2, words);
+        EXPECT_EQ(bake.place.listing(), before);
+    };
+    refused({"--at", "0,0.3,0", "--weather", cut, "--csv", bake.place.path("x.csv")},
+            {"cut.epw: line", "cut short"});
+    refused({"--at", "0,0.3,0", "--weather", bake.place.path("nowhere.epw")}, {"nowhere.epw"});
+    refused({"--weather", cut}, {"--at"});
+    refused({"--at", "0,0.3,0", "--hours", "8-18"}, {"--hours", "--weather"});
+    for (const char* hours : {"18-8", "8", "8-25", "8.5-18", "a-b", "8-", "-18"})
+        refused({"--at", "0,0.3,0", "--weather", cut, std::string("--hours=") + hours},
+                {"--hours", "FROM-TO"});
 }
 
 // Inside of the box shines its lamp, outside a bulb; its left wall is a sheet whose two sides have

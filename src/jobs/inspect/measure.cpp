@@ -65,13 +65,13 @@ void read_all(const FinishedBake& bake, const LightMeter& meter, std::vector<Mea
 }
 
 /// Measures daylight over the year of the weather file.
-void read_year(const FinishedBake& bake, const LightMeter& meter, const DaylightOptions& options,
-               MeasureSummary& summary, Stages& stages)
+void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather& weather,
+               const DaylightOptions& options, MeasureSummary& summary, Stages& stages)
 {
     stages.begin("sky and sun");
-    const Weather weather =
-        read_weather(read_file(options.weather, options.weather), options.weather);
     const DaylightYear year(weather, options.occupied);
+    stages.note(fmt::format("{} patches of the sky, {} places of the sun", SkyPatches().count(),
+                            year.sun_places().size()));
     const auto seed = std::uint32_t(seed_of(bake.record.solver.method));
     stages.begin("daylight");
     const ReflectedDaylight reflected(bake.prepared, year.sun_places(), {.seed = seed},
@@ -287,6 +287,10 @@ MeasureSummary measure(const std::string& folder, const MeasureOptions& options,
 {
     Stages stages(progress);
     stages.begin("reading");
+    // Before the long work, which a file at fault would lose.
+    std::optional<Weather> weather;
+    if (const std::string& file = options.daylight.weather; !file.empty())
+        weather = read_weather(read_file(file, file), file);
     const FinishedBake bake(folder);
     MeasureSummary summary;
     for (const MeasurePoint& point : options.points)
@@ -304,14 +308,14 @@ MeasureSummary measure(const std::string& folder, const MeasureOptions& options,
         bake.prepared.scene, bake.prepared.rays, bake.prepared.atlas, bake.prepared.lumels,
         bake.irradiance, {.samples = options.samples, .seed = seed_of(bake.record.solver.method)});
     read_all(bake, meter, summary.rows, stages);
-    if (options.daylight.weather.empty())
+    if (!weather)
         summary.outdoors = outdoors(bake, meter, summary);
     std::vector<Reading> readings;
     for (const MeasureRow& row : summary.rows)
         readings.push_back(row.reading);
     summary.figures = figures_of(readings);
-    if (!options.daylight.weather.empty())
-        read_year(bake, meter, options.daylight, summary, stages);
+    if (weather)
+        read_year(bake, meter, *weather, options.daylight, summary, stages);
     summary.report = report_of(bake, summary);
 
     stages.begin("writing");

@@ -9,13 +9,10 @@
 
 #include "results/daylight/reflected_daylight.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "atlas/cells/ray_origins.h"
 #include "base/core/error.h"
-#include "base/core/luminance.h"
 #include "base/core/parallel.h"
 #include "base/core/pi.h"
 #include "base/core/usage.h"
@@ -27,8 +24,6 @@ namespace lumel {
 namespace {
 
 constexpr std::size_t kDaylitPerTask = 64, kLanesPerTask = 4096;
-/// Shadow rays of a lumel to a place of the sun, and where these differ.
-constexpr std::uint32_t kFewSunRays = 4, kManySunRays = 32;
 /// Dimension pairs of a ray's random numbers.
 constexpr std::uint32_t kStartPair = 0, kWayPair = 1, kGlassPair = 2;
 
@@ -41,6 +36,8 @@ public:
           options_(options),
           world_(scene.scene, scene.rays, scene.lumels),
           starts_(world_, nullptr, false),
+          sun_rays_(std::uint32_t(
+              std::ceil(double(options.sun_rays) / double(scene.lumels.lumels.size() + 1)))),
           count_(patches_.count() + places.size())
     {
     }
@@ -59,25 +56,13 @@ public:
     }
 
 private:
-    /// Where a few rays differ, starts over with many: discarding the few keeps it unbiased.
     glm::vec3 sun(std::size_t lumel, std::uint32_t place, std::uint32_t stream) const
     {
-        const std::uint32_t few = PathSamples::hash(stream, 2 * place + 1),
-                            many = PathSamples::hash(stream, 2 * place + 2);
-        float low = std::numeric_limits<float>::max(), high = 0.0f;
+        const std::uint32_t own = PathSamples::hash(stream, place + 1);
         glm::vec3 sum(0.0f);
-        for (std::uint32_t k = 0; k < kFewSunRays; ++k) {
-            const glm::vec3 light = sun_by(lumel, places_[place], PathSamples(few, k));
-            low = std::min(low, sum_of(light));
-            high = std::max(high, sum_of(light));
-            sum += light;
-        }
-        if (low > 0.0f || high == 0.0f)
-            return sum / float(kFewSunRays);
-        sum = glm::vec3(0.0f);
-        for (std::uint32_t k = 0; k < kManySunRays; ++k)
-            sum += sun_by(lumel, places_[place], PathSamples(many, k));
-        return sum / float(kManySunRays);
+        for (std::uint32_t k = 0; k < sun_rays_; ++k)
+            sum += sun_by(lumel, places_[place], PathSamples(own, k));
+        return sum / float(sun_rays_);
     }
 
     glm::vec3 sun_by(std::size_t lumel, const glm::vec3& place, const PathSamples& samples) const
@@ -108,6 +93,7 @@ private:
     SkyPatches patches_;
     WorldLumels world_;
     RayOrigins starts_;
+    std::uint32_t sun_rays_;  ///< of a lumel to a place
     std::size_t count_;
 };
 
