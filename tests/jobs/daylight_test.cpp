@@ -65,17 +65,18 @@ private:
     DaylightMeter daylight_;
 };
 
-/// Black ground far below.
+/// Black, far below.
+const Quad kGround{.corner = {0.0f, -1.0f, 0.0f},
+                   .edge_u = {0.1f, 0.0f, 0.0f},
+                   .edge_v = {0.0f, 0.0f, -0.1f},
+                   .albedo = glm::vec3(0.0f)};
+
 Scene open_place()
 {
-    return support::make_quads({{.corner = {0.0f, -1.0f, 0.0f},
-                                 .edge_u = {0.1f, 0.0f, 0.0f},
-                                 .edge_v = {0.0f, 0.0f, -0.1f},
-                                 .albedo = glm::vec3(0.0f)}})
-        .scene;
+    return support::make_quads({kGround}).scene;
 }
 
-/// A clear hour at noon and a grey one, else a fine sky with some sun.
+/// Clear and grey days in turn.
 WeatherOfHour mixed(int hour)
 {
     const int of_day = hour % 24;
@@ -183,7 +184,6 @@ TEST(Daylight, ThroughAHoleIsItsSkyComponent)
     }
 }
 
-/// In a white box without a lid the light of both is the same, bounces and all, whichever way.
 TEST(Daylight, AutonomyIsTheShareOfHoursWithEnoughLight)
 {
     // 1,000 lx on three days of ten, 200 on two, 50 on one, none on the others.
@@ -208,6 +208,53 @@ TEST(Daylight, AutonomyIsTheShareOfHoursWithEnoughLight)
         DaylightReading{.autonomy = 0.5}, DaylightReading{.autonomy = 0.49},
         DaylightReading{.autonomy = 1.0, .inside = true}};
     EXPECT_EQ(figures_of(points).sufficient, 0.5);
+}
+
+/// Light that a lumel has is reflected without end: with D everywhere, X = ρ D / (1 − ρ).
+TEST(Daylight, FromOutsideIsReflectedAsInAFurnace)
+{
+    const SolveScene furnace(support::scene_path("furnace-0.9"), {.size = 32});
+    const std::size_t count = furnace.lumels.lumels.size();
+    LinkRadiosity links(furnace,
+                        LinksOptions{.filter = false, .even_rays = 96, .outside_light = true}, {});
+    while (!links.state().ended)
+        links.step();
+    std::vector<glm::vec3> direct;
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t lane = 0; lane < kLampLanes; ++lane)
+            direct.emplace_back(float(lane));
+    const std::vector<glm::vec3> found = links.reflected(direct);
+    double open = 0.0;
+    std::array<double, kLampLanes> mean{};
+    for (std::size_t i = 0; i < count; ++i) {
+        if (furnace.lumels.lumels[i].flags & kLumelBuried)
+            continue;
+        open += 1.0;
+        for (std::size_t lane = 0; lane < kLampLanes; ++lane)
+            mean[lane] += double(found[i * kLampLanes + lane].g);
+    }
+    ASSERT_GT(open, 100.0);
+    for (std::size_t lane = 0; lane < kLampLanes; ++lane)
+        EXPECT_NEAR(mean[lane] / open, 9.0 * double(lane), 0.02 * 9.0 * double(lane)) << lane;
+}
+
+/// Glass over an open point dims the sky and the sun by its tint.
+TEST(Daylight, BehindGlassHasItsTint)
+{
+    constexpr float kWide = 500.0f, kTint = 0.4f;
+    Scene scene = support::make_quads({{.corner = {-kWide, 1.0f, -kWide},
+                                        .edge_u = {2.0f * kWide, 0.0f, 0.0f},
+                                        .edge_v = {0.0f, 0.0f, 2.0f * kWide},
+                                        .albedo = glm::vec3(kTint)},
+                                       kGround})
+                      .scene;
+    scene.materials[0].transmission = 1.0f;
+    scene.materials[0].double_sided = true;
+    const Weather weather = weather_of(weather_text(mixed));
+    const Site glazed(std::move(scene), 16, weather), open(open_place(), 16, weather);
+    const DaylightReading behind = glazed.read({0.0, 0.0, 0.0}), bare = open.read({0.0, 0.0, 0.0});
+    EXPECT_NEAR(behind.factor, double(kTint), 0.01 * double(kTint));
+    EXPECT_NEAR(behind.mean_lux, double(kTint) * bare.mean_lux, 0.01 * behind.mean_lux);
 }
 
 TEST(Daylight, HoursOfTheDayAreLocal)

@@ -95,6 +95,18 @@ TEST(Weather, TheMiddleOfItsHoursIsWhereTheSunStands)
     EXPECT_NEAR(elevation(11), 90.0 - 51.4779 + 23.44, 1.5);
 }
 
+TEST(Weather, MayHaveALeapDay)
+{
+    std::string text = even_year();
+    const std::size_t from = text.find("\n2001,2,28,1,") + 1, to = text.find("\n2001,3,1,1,") + 1;
+    std::string day = text.substr(from, to - from);
+    for (std::size_t at = 0; (at = day.find("2001,2,28,", at)) != day.npos;)
+        day.replace(at, 10, "2001,2,29,");
+    const Weather weather = read(text.insert(to, day));
+    ASSERT_EQ(weather.hours.size(), 8784u);
+    EXPECT_EQ(weather.hours[24 * 59].day_of_year, 60);
+}
+
 TEST(Weather, WithoutIlluminanceIsReadByItsRadiation)
 {
     for (const double none : {0.0, 999999.0}) {

@@ -23,7 +23,9 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kDaylitPerTask = 64, kLanesPerTask = 4096;
+constexpr std::size_t kDaylitPerStep = 2048, kDaylitPerTask = 64, kLanesPerTask = 4096;
+/// Fraction of the work that direct light takes, for the progress bar only.
+constexpr double kDirectPart = 0.5;
 /// Dimension pairs of a ray's random numbers.
 constexpr std::uint32_t kStartPair = 0, kWayPair = 1, kGlassPair = 2;
 
@@ -124,11 +126,16 @@ ReflectedDaylight::ReflectedDaylight(const SolveScene& scene, std::span<const gl
     const auto is_open = [&](std::size_t i) {
         return !(scene.lumels.lumels[i].flags & kLumelBuried);
     };
-    parallel_for(lumels, kDaylitPerTask, [&](std::size_t from, std::size_t to) {
-        for (std::size_t i = from; i < to; ++i)
-            if (is_open(i))
-                direct.add(i, &sent_[i * count_]);
-    });
+    const auto goes_on = [&](double part) { return !progress || progress(part); };
+    if (!parallel_steps(
+            lumels, kDaylitPerStep, kDaylitPerTask,
+            [&](std::size_t from, std::size_t to) {
+                for (std::size_t i = from; i < to; ++i)
+                    if (is_open(i))
+                        direct.add(i, &sent_[i * count_]);
+            },
+            [&](std::size_t done) { return goes_on(kDirectPart * double(done) / double(lumels)); }))
+        return;
 
     // Links, whatever the light.
     LinkRadiosity links(scene,
@@ -137,12 +144,15 @@ ReflectedDaylight::ReflectedDaylight(const SolveScene& scene, std::span<const gl
                                      .even_rays = options.link_rays,
                                      .outside_light = true},
                         {});
-    while (!links.state().ended)
+    while (!links.state().ended) {
+        if (!goes_on(kDirectPart))
+            return;
         links.step();
+    }
 
     std::vector<glm::vec3> lanes(lumels * kLampLanes);
     for (std::size_t first = 0; first < count_; first += kLampLanes) {
-        if (progress && !progress(double(first) / double(count_)))
+        if (!goes_on(kDirectPart + (1.0 - kDirectPart) * double(first) / double(count_)))
             return;
         const std::size_t width = std::min(kLampLanes, count_ - first);
         for (std::size_t i = 0; i < lumels; ++i)
