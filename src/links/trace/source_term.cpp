@@ -176,7 +176,7 @@ LaneLight<kLampLanes> near_light(const LampsReflected& reflected, const NearLigh
     return reflected.near(shares);
 }
 
-LaneLight<kLampLanes> near_light(const GivenReflected& reflected, const NearLink&,
+LaneLight<kLampLanes> near_light(const GivenReflected& reflected, const NearLight&,
                                  std::span<const NearShare> shares)
 {
     return reflected.near(shares);
