@@ -35,6 +35,9 @@ std::string line_of(const MeasureSummary& summary, const MeasureRow& row)
     if (row.daylight)
         line += fmt::format("  {:5.1f} %  {:5.1f} %", kPercent * row.daylight->autonomy,
                             kPercent * (row.daylight->useful[1] + row.daylight->useful[2]));
+    if (row.daylight && row.daylight->hour)
+        line += fmt::format("  {:>10} ± {:.2g}", lux_text(row.daylight->hour->lux),
+                            row.daylight->hour->error());
     return line + "\n";
 }
 
@@ -47,6 +50,8 @@ std::string list_of(const MeasureSummary& summary)
         text += "        daylight";
     if (summary.year)
         text += fmt::format("  {:g} lx     useful", summary.year->target);
+    if (summary.rows.front().daylight && summary.rows.front().daylight->hour)
+        text += "   that hour [lx]";
     text += "\n";
     const std::size_t count = std::min(summary.rows.size(), kMeasuredRows);
     for (std::size_t i = 0; i < count; ++i)

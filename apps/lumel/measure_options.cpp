@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <vector>
 
@@ -80,6 +81,22 @@ OccupiedHours hours_of(const std::string& text)
     return {int(*from), int(*to)};
 }
 
+/// "06-21T15"
+HourOfYear hour_of(const std::string& text)
+{
+    constexpr int kMonths = 12, kDays = 31, kHoursOfDay = 24;
+    HourOfYear hour;
+    int length = 0;
+    const int read =
+        std::sscanf(text.c_str(), "%2d-%2dT%2d%n", &hour.month, &hour.day, &hour.begins, &length);
+    if (read != 3 || std::size_t(length) != text.size() || hour.month < 1 || hour.month > kMonths ||
+        hour.day < 1 || hour.day > kDays || hour.begins < 0 || hour.begins >= kHoursOfDay)
+        refuse_value(fmt::format("--hour: '{}' is not of the form MM-DDTHH, as in 06-21T15 for the "
+                                 "hour from 15 to 16 o'clock on 21 June",
+                                 text));
+    return hour;
+}
+
 void add_daylight(Command& command, DaylightOptions& options)
 {
     command.add(
@@ -93,6 +110,13 @@ void add_daylight(Command& command, DaylightOptions& options)
           .help = "Occupied hours of the day that count, local standard time",
           .target = [&options](const std::string& text) { options.occupied = hours_of(text); },
           .default_value = fmt::format("{}-{}", options.occupied.from, options.occupied.to),
+          .needs = "--weather"},
+         {.names = "--hour",
+          .type = "MM-DDTHH",
+          .help =
+              "Lists the illuminance of one of these hours too, as in 06-21T15 for that from 15 "
+              "to 16 o'clock on 21 June, with its error",
+          .target = [&options](const std::string& text) { options.hour = hour_of(text); },
           .needs = "--weather"},
          {.names = "--target",
           .type = "LUX",

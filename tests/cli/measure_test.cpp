@@ -170,8 +170,9 @@ TEST(Measure, DaylightOverAYearIsListedWithItsPlane)
     const std::string weather = bake.place.file("made.epw", two_seasons());
     const std::string table = bake.place.path("plane.csv");
     const std::vector<std::string> command = {
-        "--plane", "0.85",      "--bounds", "0.5,1.5,1.5,3.5", "--spacing", "0.5",   "--samples",
-        "1024",    "--weather", weather,    "--hours",         "10-16",     "--csv", table};
+        "--plane", "0.85",      "--bounds", "0.5,1.5,1.5,3.5", "--spacing", "0.5",    "--samples",
+        "1024",    "--weather", weather,    "--hours",         "10-16",     "--hour", "06-21T12",
+        "--csv",   table};
     const Json report = bake.json(command);
     EXPECT_EQ(report["year"]["hours"], 6 * 365);
     EXPECT_EQ(report["year"]["target"], 300.0);
@@ -181,6 +182,12 @@ TEST(Measure, DaylightOverAYearIsListedWithItsPlane)
         EXPECT_GT(point["daylight_factor"].get<double>(), 1.5) << point;
         EXPECT_LT(point["daylight_factor"].get<double>(), 40.0) << point;
         EXPECT_NEAR(point["year"]["autonomy"].get<double>(), 100.0 * 275.0 / 365.0, 1e-9);
+        // Overcast, so that it is nearly the daylight factor.
+        const Json& hour = point["year"]["hour"];
+        EXPECT_NEAR(hour["illuminance"].get<double>(),
+                    200.0 * point["daylight_factor"].get<double>(),
+                    0.5 * hour["illuminance"].get<double>());
+        EXPECT_LT(hour["error"].get<double>(), 0.1 * hour["illuminance"].get<double>());
         EXPECT_NEAR(point["year"]["useful"]["below_100"].get<double>(), 100.0 * 90.0 / 365.0, 1e-9);
     }
     EXPECT_EQ(report["plane"]["sufficient_daylight"], 100.0);
@@ -189,10 +196,10 @@ TEST(Measure, DaylightOverAYearIsListedWithItsPlane)
     EXPECT_TRUE(lines[0].ends_with(
         ",daylight_factor_percent,autonomy_percent,useful_below_100_percent,"
         "useful_100_to_300_percent,useful_300_to_3000_percent,useful_above_3000_percent,"
-        "mean_daylight_lx"))
+        "mean_daylight_lx,hour_lx,hour_error_lx"))
         << lines[0];
     for (const std::string& line : lines)
-        EXPECT_EQ(std::count(line.begin(), line.end(), ','), 14) << line;
+        EXPECT_EQ(std::count(line.begin(), line.end(), ','), 16) << line;
     const Outcome printed = bake.measure(command);
     EXPECT_NE(printed.out.find("sDA 300 lx, 50 % of 2190 hours: 100.0 % of the points"),
               std::string::npos)
@@ -205,6 +212,7 @@ TEST(Measure, AWeatherFileCutShortIsOneSentenceAndNothingIsWritten)
     const Bake bake("cornell-box.gltf", {"--shots", "16"});
     const std::string whole = two_seasons();
     const std::string cut = bake.place.file("cut.epw", whole.substr(0, whole.size() / 2));
+    const std::string weather = bake.place.file("whole.epw", whole);
     const std::vector<std::string> before = bake.place.listing();
     const auto refused = [&](const std::vector<std::string>& more,
                              const std::vector<std::string>& words) {
@@ -216,6 +224,10 @@ TEST(Measure, AWeatherFileCutShortIsOneSentenceAndNothingIsWritten)
     refused({"--at", "0,0.3,0", "--weather", bake.place.path("nowhere.epw")}, {"nowhere.epw"});
     refused({"--weather", cut}, {"--at"});
     refused({"--at", "0,0.3,0", "--hours", "8-18"}, {"--hours", "--weather"});
+    refused({"--at", "0,0.3,0", "--weather", weather, "--hour", "06-21T22"},
+            {"--hour", "06-21T22"});
+    for (const char* hour : {"6", "06-21", "13-01T12", "06-21T24", "06-21T12:00"})
+        refused({"--at", "0,0.3,0", "--weather", cut, "--hour", hour}, {"--hour", "MM-DDTHH"});
     for (const char* hours : {"18-8", "8", "8-25", "8.5-18", "a-b", "8-", "-18"})
         refused({"--at", "0,0.3,0", "--weather", cut, std::string("--hours=") + hours},
                 {"--hours", "FROM-TO"});

@@ -64,12 +64,29 @@ void read_all(const FinishedBake& bake, const LightMeter& meter, std::vector<Mea
         throw_stopped();
 }
 
+/// Index of an hour in the year. Throws Error{input} if it has no such hour.
+std::size_t hour_of(const Weather& weather, const DaylightYear& year, const HourOfYear& wanted)
+{
+    for (std::size_t h = 0; h < year.hours(); ++h) {
+        const WeatherHour& hour = weather.hours[year.number(h)];
+        if (hour.month == wanted.month && hour.day == wanted.day && hour.ends == wanted.begins + 1)
+            return h;
+    }
+    throw Error(ErrorKind::input, "--hour",
+                fmt::format("the weather file has no {:02}-{:02}T{:02} within the occupied hours; "
+                            "see --hours",
+                            wanted.month, wanted.day, wanted.begins));
+}
+
 /// Measures daylight over the year of the weather file.
 void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather& weather,
                const DaylightOptions& options, MeasureSummary& summary, Stages& stages)
 {
     stages.begin("sky and sun");
     const DaylightYear year(weather, options.occupied);
+    std::optional<std::size_t> one;
+    if (options.hour)
+        one = hour_of(weather, year, *options.hour);
     stages.note(fmt::format("{} patches of the sky, {} places of the sun", SkyPatches().count(),
                             year.sun_places().size()));
     const auto seed = std::uint32_t(seed_of(bake.record.solver.method));
@@ -85,8 +102,8 @@ void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather&
         rows.size(), kPointsPerStep, kPointsPerTask,
         [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
-                rows[i].daylight =
-                    hours.read(meter_point(bake, rows[i].point), std::uint32_t(i), options.target);
+                rows[i].daylight = hours.read(meter_point(bake, rows[i].point), std::uint32_t(i),
+                                              options.target, one);
         },
         [&](std::size_t count) { return stages.progress(double(count) / double(rows.size())); });
     if (!done)
@@ -133,10 +150,13 @@ Json json_of(const DaylightReading& daylight)
     Json useful;
     for (std::size_t k = 0; k < kUsefulNames.size(); ++k)
         useful[kUsefulNames[k]] = kPercent * daylight.useful[k];
-    return {{"factor_noise", kPercent * daylight.factor_noise},
-            {"autonomy", kPercent * daylight.autonomy},
-            {"useful", useful},
-            {"mean_illuminance", daylight.mean_lux}};
+    Json json = {{"factor_noise", kPercent * daylight.factor_noise},
+                 {"autonomy", kPercent * daylight.autonomy},
+                 {"useful", useful},
+                 {"mean_illuminance", daylight.mean_lux}};
+    if (daylight.hour)
+        json["hour"] = {{"illuminance", daylight.hour->lux}, {"error", daylight.hour->error()}};
+    return json;
 }
 
 Json json_of(const MeasureSummary& summary, const MeasureRow& row)
@@ -221,6 +241,8 @@ std::string csv_of(const MeasureSummary& summary)
         for (const char* name : kUsefulNames)
             text += fmt::format(",useful_{}_percent", name);
         text += ",mean_daylight_lx";
+        if (!summary.rows.empty() && summary.rows.front().daylight->hour)
+            text += ",hour_lx,hour_error_lx";
     }
     text += "\n";
     for (const MeasureRow& row : summary.rows) {
@@ -239,6 +261,10 @@ std::string csv_of(const MeasureSummary& summary)
             for (const double share : row.daylight->useful)
                 add(kPercent * share);
             add(row.daylight->mean_lux);
+            if (row.daylight->hour) {
+                add(row.daylight->hour->lux);
+                add(row.daylight->hour->error());
+            }
         }
         text += "\n";
     }

@@ -20,11 +20,18 @@ struct MeasurePoint {
     glm::dvec3 normal{0.0, 1.0, 0.0};  ///< any length above 0
 };
 
+/// An hour of local standard time.
+struct HourOfYear {
+    int month = 1, day = 1;
+    int begins = 0;  ///< 0 to 23
+};
+
 /// Daylight over a year.
 struct DaylightOptions {
-    std::string weather;     ///< EPW file, or empty: none
-    OccupiedHours occupied;  ///< that count
-    double target = 300.0;   ///< illuminance [lx] of daylight autonomy
+    std::string weather;             ///< EPW file, or empty: none
+    OccupiedHours occupied;          ///< that count
+    double target = 300.0;           ///< illuminance [lx] of daylight autonomy
+    std::optional<HourOfYear> hour;  ///< that is measured too
 };
 
 struct MeasureOptions {

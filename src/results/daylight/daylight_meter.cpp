@@ -167,8 +167,8 @@ HourReading DaylightMeter::hour(const MeterPoint& point, std::uint32_t number,
                                                        reflected_sun(sun.wide, of_places)))};
 }
 
-DaylightReading DaylightMeter::read(const MeterPoint& point, std::uint32_t number,
-                                    double target) const
+DaylightReading DaylightMeter::read(const MeterPoint& point, std::uint32_t number, double target,
+                                    std::optional<std::size_t> one) const
 {
     const DaylightCoefficients found = coefficients(point, number);
     DaylightReading reading{.inside = found.inside};
@@ -178,14 +178,16 @@ DaylightReading DaylightMeter::read(const MeterPoint& point, std::uint32_t numbe
     reading.factor = factor(found.mean);
     reading.factor_noise = noise_of([&](std::size_t set) { return factor(found.of_sets[set]); });
     const std::vector<float> lux = hours(point, number, found.mean);
+    if (one)
+        reading.hour = hour(point, number, found, *one);
     const double share = lux.empty() ? 0.0 : 1.0 / double(lux.size());
-    for (const float one : lux) {
+    for (const float value : lux) {
         const auto range =
-            std::upper_bound(kUsefulDaylight.begin(), kUsefulDaylight.end(), double(one)) -
+            std::upper_bound(kUsefulDaylight.begin(), kUsefulDaylight.end(), double(value)) -
             kUsefulDaylight.begin();
         reading.useful[std::size_t(range)] += share;
-        reading.autonomy += double(one) >= target ? share : 0.0;
-        reading.mean_lux += share * double(one);
+        reading.autonomy += double(value) >= target ? share : 0.0;
+        reading.mean_lux += share * double(value);
     }
     return reading;
 }

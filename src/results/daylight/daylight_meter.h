@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,15 +25,6 @@ struct DaylightCoefficients {
     bool inside = false;  ///< as Reading::inside
 };
 
-struct DaylightReading {
-    double factor = 0.0;             ///< daylight factor, 0…1 of that outdoors
-    double factor_noise = 0.0;       ///< its standard error by the rays alone
-    double autonomy = 0.0;           ///< share of the occupied hours with the target illuminance
-    std::array<double, 4> useful{};  ///< shares of the hours in the ranges of kUsefulDaylight
-    double mean_lux = 0.0;           ///< over the occupied hours [lx]
-    bool inside = false;             ///< as Reading::inside
-};
-
 /// Illuminance of an hour.
 struct HourReading {
     double lux = 0.0;
@@ -44,6 +36,16 @@ struct HourReading {
     double error() const { return std::hypot(noise, interpolation); }
 };
 
+struct DaylightReading {
+    double factor = 0.0;             ///< daylight factor, 0…1 of that outdoors
+    double factor_noise = 0.0;       ///< its standard error by the rays alone
+    double autonomy = 0.0;           ///< share of the occupied hours with the target illuminance
+    std::array<double, 4> useful{};  ///< shares of the hours in the ranges of kUsefulDaylight
+    double mean_lux = 0.0;           ///< over the occupied hours [lx]
+    std::optional<HourReading> hour = {};  ///< if it was asked for
+    bool inside = false;                   ///< as Reading::inside
+};
+
 /// Thread-safe.
 class DaylightMeter {
 public:
@@ -51,8 +53,10 @@ public:
     DaylightMeter(const LightMeter& meter, const DaylightYear& year,
                   const ReflectedDaylight& reflected, std::uint32_t seed);
 
-    /// number: of the point; selects its random numbers.
-    DaylightReading read(const MeterPoint& point, std::uint32_t number, double target) const;
+    /// number: of the point; selects its random numbers. one: an hour of the year's that is read
+    /// too.
+    DaylightReading read(const MeterPoint& point, std::uint32_t number, double target,
+                         std::optional<std::size_t> one = {}) const;
 
     DaylightCoefficients coefficients(const MeterPoint& point, std::uint32_t number) const;
     /// hour: of the year's.

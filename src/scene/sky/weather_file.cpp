@@ -178,7 +178,10 @@ bool add_hour(const Lines& lines, double time_zone, Weather& weather)
 {
     constexpr int kLastHour = 24;
     const auto [midnight, day_of_year] = day_of(lines);
-    WeatherHour hour{.day_of_year = day_of_year, .ends = lines.whole(kHour, "hour", 1, kLastHour)};
+    WeatherHour hour{.month = int(lines.number(kMonth, "month")),
+                     .day = int(lines.number(kDay, "day")),
+                     .day_of_year = day_of_year,
+                     .ends = lines.whole(kHour, "hour", 1, kLastHour)};
     hour.middle = midnight + (hour.ends - 0.5 - time_zone) * kSecondsPerHour;
     const double dew_point = lines.number(kDewPoint, "dew point");
     hour.dew_point = dew_point < kNoDewPoint ? dew_point : kUsualDewPoint;

@@ -12,7 +12,7 @@ namespace lumel {
 /// An hour of local standard time.
 struct WeatherHour {
     double middle = 0.0;  ///< in the format of seconds_since_2000()
-    int day_of_year = 1;
+    int month = 1, day = 1, day_of_year = 1;
     int ends = 1;              ///< hour of the day at which it ends, 1 to 24
     double direct = 0.0;       ///< radiation of the sun on a plane that faces it [W/m²]
     double diffuse = 0.0;      ///< radiation of the sky on a horizontal plane [W/m²]
