@@ -226,6 +226,9 @@ TEST(Measure, AWeatherFileCutShortIsOneSentenceAndNothingIsWritten)
     refused({"--at", "0,0.3,0", "--hours", "8-18"}, {"--hours", "--weather"});
     refused({"--at", "0,0.3,0", "--weather", weather, "--hour", "06-21T22"},
             {"--hour", "06-21T22"});
+    for (const char* hour : {"06-21T09", "06-21T16"})
+        refused({"--at", "0,0.3,0", "--weather", weather, "--hours", "10-16", "--hour", hour},
+                {"--hour", hour});
     for (const char* hour : {"6", "06-21", "13-01T12", "06-21T24", "06-21T12:00"})
         refused({"--at", "0,0.3,0", "--weather", cut, "--hour", hour}, {"--hour", "MM-DDTHH"});
     for (const char* hours : {"18-8", "8", "8-25", "8.5-18", "a-b", "8-", "-18"})
