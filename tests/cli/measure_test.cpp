@@ -200,6 +200,21 @@ TEST(Measure, DaylightOverAYearIsListedWithItsPlane)
         << lines[0];
     for (const std::string& line : lines)
         EXPECT_EQ(std::count(line.begin(), line.end(), ','), 16) << line;
+    // The columns from the daylight factor on are the numbers of the JSON.
+    std::vector<double> columns;
+    std::istringstream row(lines[1]);
+    for (std::string column; std::getline(row, column, ',');)
+        columns.push_back(std::stod(column));
+    const Json& first = report["points"][0];
+    const Json &year = first["year"], &useful = year["useful"];
+    const std::vector<Json> numbers = {first["daylight_factor"], year["autonomy"],
+                                       useful["below_100"],      useful["100_to_300"],
+                                       useful["300_to_3000"],    useful["above_3000"],
+                                       year["mean_illuminance"], year["hour"]["illuminance"],
+                                       year["hour"]["error"]};
+    ASSERT_EQ(columns.size(), 8 + numbers.size());
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+        EXPECT_NEAR(columns[8 + k], numbers[k].get<double>(), 1e-5 * std::abs(columns[8 + k])) << k;
     const Outcome printed = bake.measure(command);
     EXPECT_NE(printed.out.find("sDA 300 lx, 50 % of 2190 hours: 100.0 % of the points"),
               std::string::npos)
