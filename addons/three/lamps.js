@@ -128,7 +128,7 @@ export async function lampsOf(renderer, gltf) {
         }
         for (const sum of bound.sums) sum.refresh();
     };
-    const dispose = () => {
+    const dispose = () => { // the maps are kept for a later change
         bound?.unbind();
         bound = null;
         for (const name of names) states.set(name, baked);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 
 #include <fmt/core.h>
@@ -34,14 +35,22 @@ std::optional<RecordedScene> scene_of(const std::string& map)
     const std::string report = (path.parent_path() / kReportFile).string();
     if (!std::filesystem::exists(report))
         return std::nullopt;
-    const Json json = read_json(report);
-    const JsonView view(report, json);
-    const auto scene = view.find("scene");
-    const auto files = json.find("files");
-    if (!scene || files == json.end() ||
-        std::ranges::find(*files, Json(path.filename().string())) == files->end())
+    std::ifstream stream(report);
+    const Json json = Json::parse(stream, nullptr, false);
+    const auto text = [](const Json& in, const char* name) {
+        return in.is_object() && in.contains(name) && in[name].is_string()
+                   ? std::optional(in[name].get<std::string>())
+                   : std::nullopt;
+    };
+    const bool is_record =
+        json.is_object() && json.contains("scene") && json.contains("files") &&
+        json["files"].is_array() &&
+        std::ranges::find(json["files"], Json(path.filename().string())) != json["files"].end();
+    if (!is_record)
         return std::nullopt;
-    return RecordedScene{scene->get("file").string(), scene->get("hash").string()};
+    const std::optional<std::string> file = text(json["scene"], "file"),
+                                     hash = text(json["scene"], "hash");
+    return file && hash ? std::optional(RecordedScene{*file, *hash}) : std::nullopt;
 }
 
 /// Refuses bakes of two scenes, unless their charts are the same: those of an edited scene.
@@ -51,8 +60,9 @@ void check_scenes(const CompareArguments& arguments, const Image& map, const Ima
     const std::optional<RecordedScene> other = scene_of(arguments.reference);
     if (one && other && one->hash != other->hash && !covers_the_same(map, reference))
         throw Error(ErrorKind::input, arguments.map,
-                    "shows " + one->file + ", but " + arguments.reference + " " + other->file +
-                        ", with other charts: a texel of one is another place in the other");
+                    "is of " + one->file + " and " + arguments.reference + " is of " + other->file +
+                        ", whose charts are others, so that texels do not correspond; compare two "
+                        "bakes of one scene");
 }
 
 void print_json(const MapError& error)

@@ -418,7 +418,8 @@ struct LampMap {
     std::vector<std::string> members;  ///< names of a group's lamps, or the lamp's own
     Map map;
     double error = 0.0;  ///< estimated, relative to its own light
-    /// Of its light on all lumels, linear RGB, the largest channel 1. scene.glb has it.
+    /// Colour of its light, linear RGB, the largest channel 1, for write_scene(): set it if you
+    /// change `map`.
     std::array<double, 3> color{1.0, 1.0, 1.0};
 };
 

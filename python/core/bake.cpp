@@ -108,7 +108,11 @@ void add_device_info(py::module_& module)
         .def_readonly("driver", &DeviceInfo::driver)
         .def_readonly("memory_bytes", &DeviceInfo::memory_bytes)
         .def_readonly("usable", &DeviceInfo::usable)
-        .def_readonly("reason", &DeviceInfo::reason, "Why it is not usable, else empty.");
+        .def_readonly("reason", &DeviceInfo::reason, "Why it is not usable, else empty.")
+        .def("__repr__", [](const DeviceInfo& info) {
+            return "<lumel.DeviceInfo " + info.name + ", " +
+                   (info.usable ? "usable" : info.reason) + ">";
+        });
 }
 
 py::dict lamps_of(const py::object& self)

@@ -83,6 +83,17 @@ void call(const std::function<void()>& work)
     issue_warnings(false);
 }
 
+void free_alone(const std::function<void()>& work)
+{
+    if (is_calling) {  // and waits for this
+        work();
+        return;
+    }
+    const py::gil_scoped_release released;
+    const std::scoped_lock alone(one_at_a_time());
+    work();
+}
+
 void check_signals()
 {
     const py::gil_scoped_acquire acquired;

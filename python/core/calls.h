@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,21 @@ namespace py = pybind11;
 /// Calls work() without the GIL, one call of this process at a time, then issues the library's
 /// messages as LumelWarning. Throws RuntimeError within a progress function.
 void call(const std::function<void()>& work);
+
+/// Runs `work` alone as call() does, also while another call of this thread is under way: for
+/// destructors of what a Device has.
+void free_alone(const std::function<void()>& work);
+
+/// Holds an object of a Device, which no other call may use while it is freed.
+template <class T>
+struct FreedAlone {
+    void operator()(T* object) const
+    {
+        free_alone([&] { delete object; });
+    }
+};
+template <class T>
+using Held = std::unique_ptr<T, FreedAlone<T>>;
 
 template <class Result>
 Result result_of(const std::function<Result()>& work)

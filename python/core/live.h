@@ -14,6 +14,8 @@ inline constexpr double kSlice = 100.0;
 template <class Live, class State>
 State update_in_slices(Live& live, double budget_ms)
 {
+    if (!(budget_ms >= 0.0))
+        throw py::value_error("budget_ms must be a number from 0 up");
     return result_of<State>([&] {
         State state;
         double spent = 0.0;

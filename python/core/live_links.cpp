@@ -89,8 +89,12 @@ void add_live_links(py::module_& module)
              py::arg("budget_ms") = std::numeric_limits<double>::infinity())
         .def("bake", &bake, "Solves to this estimated relative error; returns that reached.",
              py::arg("error") = 0.02)
-        .def_property_readonly("state", &LiveLinks::state, "After the last update().",
-                               py::return_value_policy::copy)
+        .def_property_readonly(
+            "state",
+            [](const LiveLinks& live) {
+                return result_of<LiveLinksState>([&] { return live.state(); });
+            },
+            "After the last update().")
         .def(
             "map",
             [](const LiveLinks& live) {

@@ -58,7 +58,8 @@ void add_state(py::module_& module)
 void add_live_scene(py::module_& module)
 {
     add_state(module);
-    py::class_<LiveScene>(module, "LiveScene", "Keeps a scene lit while it changes, on a GPU.")
+    py::class_<LiveScene, Held<LiveScene>>(module, "LiveScene",
+                                           "Keeps a scene lit while it changes, on a GPU.")
         .def(py::init(&make), "Builds the atlas; settings as in lumel.h.", py::arg("device"),
              py::arg("scene"), py::keep_alive<1, 2>())
         .def("move", &move, "(4, 4), mesh to world, a rigid motion; update() applies it.",
@@ -73,8 +74,12 @@ void add_live_scene(py::module_& module)
         .def("update", &update_in_slices<LiveScene, LiveState>,
              "Runs for about this time, by default until converged.",
              py::arg("budget_ms") = std::numeric_limits<double>::infinity())
-        .def_property_readonly("state", &LiveScene::state, "After the last update().",
-                               py::return_value_policy::copy)
+        .def_property_readonly(
+            "state",
+            [](const LiveScene& live) {
+                return result_of<LiveState>([&] { return live.state(); });
+            },
+            "After the last update().")
         .def(
             "map",
             [](const LiveScene& live) {

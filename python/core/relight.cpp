@@ -48,12 +48,17 @@ void save(const Relight& relight, const py::object& path)
 
 void add_relight(py::module_& module)
 {
-    py::class_<Relight>(module, "Relight", "A baked scene under any light.")
+    py::class_<Relight, Held<Relight>>(module, "Relight", "A baked scene under any light.")
         .def(py::init(&of_bake), "Of a bake with method \"matrix\".", py::arg("device"),
              py::arg("baked"), py::keep_alive<1, 2>())
         .def(py::init(&of_file), "Of a file scene.lumelmat.", py::arg("device"), py::arg("path"),
              py::keep_alive<1, 2>())
-        .def_property_readonly("lights", &Relight::lights, "Names of the sources.")
+        .def_property_readonly(
+            "lights",
+            [](const Relight& relight) {
+                return result_of<std::vector<std::string>>([&] { return relight.lights(); });
+            },
+            "Names of the sources.")
         .def("set_light", &set_light, "Scales a source, or the emission of a material.",
              py::arg("name"), py::arg("factor"))
         .def("move_light", &move_light, "Moves or turns a lamp.", py::arg("name"), py::kw_only(),

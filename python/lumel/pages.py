@@ -9,7 +9,9 @@ def cut_page(map: NDArray[np.float32], page: tuple[int, int, int]) -> NDArray[np
 
     Coordinates in it: (lightmap × width - (left, top)) / side. Raises ValueError if the page is not inside the map.
     """
+    if np.ndim(map) != 3 or np.shape(page) != (3,):
+        raise ValueError("cut_page takes a map (height, width, 4) and one of Baked.pages")
     left, top, side = page
-    if map.ndim != 3 or left < 0 or top < 0 or side < 1 or left + side > map.shape[1] or top + side > map.shape[0]:
+    if left < 0 or top < 0 or side < 1 or left + side > map.shape[1] or top + side > map.shape[0]:
         raise ValueError(f"page {page} is not inside a map of the shape {map.shape}")
     return map[top:top + side, left:left + side]

@@ -335,7 +335,7 @@ TEST(Why, HasASentenceIfRaysAndBakeDifferByMoreThanTheirErrors)
     EXPECT_EQ(remark_on_rays(0.50, 0.52, 0.01, 0.0), "");
     EXPECT_EQ(remark_on_rays(0.50, 0.40, 0.0, 0.1), "");
     const std::string remark = remark_on_rays(0.42, 0.02, 0.001, 0.05);
-    EXPECT_EQ(remark.find("rays find 0.048 times the light of the bake, more than noise explains"),
+    EXPECT_EQ(remark.find("rays find 0.048 times the light of the bake, more than noise explains."),
               0u)
         << remark;
     EXPECT_EQ(remark_on_rays(0.0, 0.1, 0.001, 0.05).find("rays find light where the bake has none"),

@@ -165,13 +165,18 @@ WhySummary summary_of(const SolveScene& prepared, std::uint32_t lumel, const Sen
 
 std::string remark_on_rays(double solved, double found, double noise, double error)
 {
+    constexpr double kPlain = 10.0;  // from here on, no decimals
     constexpr double kSigmas = 3.0;  // of 370 normally distributed differences, one is larger
-    if (std::abs(found - solved) <= kSigmas * std::hypot(noise, error * solved))
+    // A bake that states no error may not be finished.
+    if (error < 0.0 || std::abs(found - solved) <= kSigmas * std::hypot(noise, error * solved))
         return {};
+    const double ratio = found / solved;
+    const std::string times =
+        ratio < kPlain ? fmt::format("{:.2g}", ratio) : fmt::format("{:.0f}", ratio);
     return fmt::format(
-        "{}, more than noise explains: at an edge or beside other geometry, the "
-        "bake has the light of a part of the texel, and rays start all over it",
-        solved > 0.0 ? fmt::format("rays find {:.2g} times the light of the bake", found / solved)
+        "{}, more than noise explains. At an edge or beside other geometry, the "
+        "bake has the light of the part of the texel that is open, and rays start from all of it",
+        solved > 0.0 ? "rays find " + times + " times the light of the bake"
                      : "rays find light where the bake has none");
 }
 
@@ -196,7 +201,7 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
     summary.solved = irradiance[lumel];
     summary.remark =
         remark_on_rays(luminance(summary.solved), luminance(summary.found), senders.noise,
-                       std::max({bake.record.error, bake.record.dark_error, 0.0}));
+                       std::max(bake.record.error, bake.record.dark_error));
     summary.report = report_of(summary);
     if (options.width > 0) {
         stages.begin("picture");

@@ -144,8 +144,9 @@ void Checkpoint::keep(Solver& solver, const Run& run)
     write(solver, run);
 }
 
-void Checkpoint::write(Solver& solver, const Run& given)
+bool Checkpoint::write(Solver& solver, const Run& given)
 {
+    bool is_written = false;
     const double start = wall_seconds();
     try {
         OutputFile output(path_);
@@ -160,6 +161,7 @@ void Checkpoint::write(Solver& solver, const Run& given)
         if (!file)
             throw Error(ErrorKind::output, path_, std::strerror(errno));
         output.commit();
+        is_written = true;
     } catch (const Error& error) {
         if (!warned_)
             log_warning(std::string("no checkpoint written: ") + error.what());
@@ -167,6 +169,7 @@ void Checkpoint::write(Solver& solver, const Run& given)
     }
     const double now = wall_seconds();
     next_ = now + std::max(every_, kRest * (now - start));
+    return is_written;
 }
 
 bool Checkpoint::stop(Solver& solver, const Run& run)
@@ -174,9 +177,7 @@ bool Checkpoint::stop(Solver& solver, const Run& run)
     if (!can_)
         return false;
     if (resume_) {
-        if (every_ > 0.0)
-            write(solver, run);
-        return every_ > 0.0;
+        return every_ > 0.0 && write(solver, run);
     }
     if (!older_) {
         std::error_code ignored;

@@ -37,8 +37,8 @@ public:
     /// Writes a checkpoint if one is due. On failure, warns and keeps the previous one. Without
     /// --resume it replaces another bake's checkpoint only after solving for longer than that.
     void keep(Solver& solver, const Run& run);
-    /// For a solve stopped by the user: keeps the checkpoint with --resume, and then returns true;
-    /// otherwise removes it, unless it existed before this bake.
+    /// For a solve stopped by the user: keeps the checkpoint with --resume, and returns true if it
+    /// is written; otherwise removes it, unless it existed before this bake.
     bool stop(Solver& solver, const Run& run);
 
 private:
@@ -54,7 +54,8 @@ private:
     };
 
     double seconds_of_older(std::uint64_t size) const;
-    void write(Solver& solver, const Run& run);
+    /// Returns false, and warns once, if the file cannot be written.
+    bool write(Solver& solver, const Run& run);
 
     std::string path_;
     bool can_, resume_;

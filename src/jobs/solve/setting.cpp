@@ -182,9 +182,8 @@ void tell_late(const SolverOptions& options, double before_solving, double first
     if (options.max_seconds <= 0.0 || first_light <= options.max_seconds)
         return;
     stages.warn(fmt::format(
-        "the time limit of {:g} s was too short: the first light of all lumels was "
-        "there after {:.3g} s, {:.3g} s of them before solving; the result has as few "
-        "{} as possible",
+        "the time limit of {:g} s was too short: all lumels had their first light after "
+        "{:.1f} s, {:.1f} s of them before solving began; the result has the fewest {} possible",
         options.max_seconds, first_light, before_solving, method_of(options.method).shots));
 }
 
@@ -221,11 +220,14 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stag
     const bool kept = !run.finished && checkpoint && checkpoint->stop(solver, so_far);
     run.curve = std::move(so_far.curve);
     if (const SolverState state = solver.state(); !run.finished && state.shots == 0)
-        throw Error(
-            ErrorKind::stopped, "",
-            fmt::format("stopped before the first result, with {:.0f} % of the first light of "
-                        "all lumels; nothing is written{}",
-                        100.0 * state.begun, kept ? " but the checkpoint" : ""));
+        throw Error(ErrorKind::stopped, "",
+                    fmt::format("stopped before the first result{}; nothing is written{}",
+                                state.begun > 0.0
+                                    ? fmt::format(", with {:.0f} % of the first light of "
+                                                  "all lumels",
+                                                  100.0 * state.begun)
+                                    : "",
+                                kept ? " but the checkpoint" : ""));
     if (run.finished && first_light)
         tell_late(given, before_solving, *first_light, stages);
     if (solver.state().full)

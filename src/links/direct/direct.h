@@ -69,12 +69,12 @@ public:
     }
     /// True if direct light is stored per cell.
     bool varies(std::size_t lumel) const { return by_cell_.index[lumel] != kSame; }
-    /// Place of the cells of a lumel that varies, for light_in().
-    std::uint32_t place_of_cells(std::size_t lumel) const { return by_cell_.index[lumel]; }
-    /// at() of a cell, by place.
-    const glm::vec3& light_in(std::uint32_t place, std::uint32_t cell) const
+    /// Index of a lumel that varies among those, for light_in().
+    std::uint32_t index_of_cells(std::size_t lumel) const { return by_cell_.index[lumel]; }
+    /// at() of a cell, by that index.
+    const glm::vec3& light_in(std::uint32_t index, std::uint32_t cell) const
     {
-        return by_cell_.cells[std::size_t(place) * kCells + cell];
+        return by_cell_.cells[std::size_t(index) * kCells + cell];
     }
     /// True if the light of lamps is: also where only their sum is even.
     bool varies_by_lamp(std::size_t lumel) const { return lamps_by_cell_.index[lumel] != kSame; }

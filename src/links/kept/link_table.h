@@ -164,8 +164,14 @@ public:
     LinkRow next(bool is_cut)
     {
         const std::size_t rays = block_->rays[lumel_++];
-        LinkRow row{slot_,  {block_->ends.data() + slot_, rays}, nullptr, {}, {}, {}, near_,
-                    nullptr};
+        LinkRow row{.first_slot = slot_,
+                    .ends = {block_->ends.data() + slot_, rays},
+                    .from = nullptr,
+                    .near = {},
+                    .near_light = {},
+                    .shares = {},
+                    .first_near = near_,
+                    .probabilities = nullptr};
         if (!block_->probabilities.empty())
             row.probabilities = block_->probabilities.data() + slot_;
         if (is_cut) {

@@ -59,7 +59,7 @@ ReflectedLight::ReflectedLight(const LinkWork& work, const SubLumels& parts,
     parallel_for(work.lumels().size(), kSourcesPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const glm::vec3& albedo = work.lumels()[i].albedo;
-            const OfNumber light = direct.varies(i) ? OfNumber{albedo, direct.place_of_cells(i)}
+            const OfNumber light = direct.varies(i) ? OfNumber{albedo, direct.index_of_cells(i)}
                                                     : OfNumber{albedo * direct.mean(i)};
             std::fill(of_number_.begin() + numbers.of_part(parts.first(i)),
                       of_number_.begin() + numbers.of_part(parts.end(i)), light);

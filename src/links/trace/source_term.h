@@ -41,15 +41,16 @@ public:
     glm::vec3 at(LinkEnd end) const
     {
         const OfNumber& found = of_number_[end.number()];
-        return found.cells == kEven ? found.light
-                                    : found.light * direct_.light_in(found.cells, end.cell());
+        return found.cells == kEven
+                   ? found.light_or_albedo
+                   : found.light_or_albedo * direct_.light_in(found.cells, end.cell());
     }
 
 private:
     static constexpr std::uint32_t kEven = ~0u;
-    /// What a link needs in one read. Where cells differ, the albedo, and their place.
+    /// What a link needs in one read. Where cells differ, the albedo, and index_of_cells().
     struct OfNumber {
-        glm::vec3 light{0.0f};
+        glm::vec3 light_or_albedo{0.0f};
         std::uint32_t cells = kEven;
     };
 

@@ -26,7 +26,8 @@ constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN"
 constexpr std::size_t kHeaderSize = 12, kChunkHeaderSize = 8;
-constexpr std::size_t kChunkAlignment = 4;  // alignment of chunks and of views, for floats
+constexpr std::size_t kChunkAlignment = 4;     // alignment of chunks and of views, for floats
+constexpr std::size_t kJsonOfExtension = 160;  // bytes that a compressed view adds, about
 constexpr int kLinear = 9729, kClampToEdge = 33071;
 
 // Placeholders for released elements without a successor; nothing refers to them.
@@ -383,7 +384,7 @@ std::size_t GlbBuilder::compress()
             std::optional<EncodedView> encoded;
             if (is_encodable(elements))
                 encoded = encode_meshopt(elements);
-            if (encoded && encoded->bytes.size() < length) {
+            if (encoded && encoded->bytes.size() + kJsonOfExtension < length) {
                 encoded->extension.update({{"buffer", 0}, {"byteOffset", append(encoded->bytes)}});
                 decoded = aligned(decoded);
                 place->second = {{"buffer", 1}, {"byteOffset", decoded}};
