@@ -67,13 +67,13 @@ TEST(Weather, HasTheHoursAndThePlaceOfItsFile)
     EXPECT_EQ(weather.city, "Test");
     EXPECT_NEAR(weather.latitude, glm::radians(47.5), 1e-9);
     EXPECT_NEAR(weather.longitude, glm::radians(19.0), 1e-9);
-    EXPECT_TRUE(weather.has_illuminance);
     EXPECT_EQ(weather.missing, 0u);
     const WeatherHour& hour = weather.hours[24 * 31 + 12];  // 1 February, 12 to 13
     EXPECT_EQ(hour.ends, 13);
     EXPECT_EQ(hour.day_of_year, 32);
     EXPECT_EQ(hour.direct, 756.0);
     EXPECT_NEAR(hour.diffuse, 75.6, 1e-6);
+    EXPECT_TRUE(hour.has_illuminance);
     EXPECT_EQ(hour.direct_lux, 75600.0);
     EXPECT_EQ(hour.middle, seconds_since_2000("2001-02-01T12:30+01:00"));
 }
@@ -82,7 +82,7 @@ TEST(Weather, HasTheHoursAndThePlaceOfItsFile)
 TEST(Weather, TheMiddleOfItsHoursIsWhereTheSunStands)
 {
     const Weather weather =
-        read(weather_text([](int) { return WeatherOfHour{}; }, 51.4779, 0.0, 0.0));
+        read(weather_text([](int) { return WeatherOfHour{.diffuse = 1.0}; }, 51.4779, 0.0, 0.0));
     const std::size_t day = 24 * 171;  // 21 June
     const auto elevation = [&](std::size_t hour) {
         return glm::degrees(
@@ -107,20 +107,92 @@ TEST(Weather, MayHaveALeapDay)
     EXPECT_EQ(weather.hours[24 * 59].day_of_year, 60);
 }
 
+/// Decided in each hour: a mark in both columns, or 0 lx of sun or sky in bright hours.
 TEST(Weather, WithoutIlluminanceIsReadByItsRadiation)
 {
-    for (const double none : {0.0, 999999.0}) {
-        const Weather weather = read(weather_text([&](int) {
-            return WeatherOfHour{500.0, 100.0, none, none};
-        }));
-        EXPECT_FALSE(weather.has_illuminance);
-        EXPECT_EQ(weather.hours[0].diffuse, 100.0);
+    const WeatherOfHour whole{500.0, 100.0, 50000.0, 11000.0};
+    const WeatherOfHour lacking[] = {{500.0, 100.0, 0.0, 0.0},
+                                     {500.0, 100.0, 999999.0, 999999.0},
+                                     {500.0, 100.0, 0.0, 11000.0},
+                                     {500.0, 100.0, 50000.0, 0.0},
+                                     {10.0, 10.0, 999999.0, 1000.0}};
+    for (const WeatherOfHour& lacks : lacking) {
+        const Weather weather =
+            read(weather_text([&](int hour) { return hour == 12 ? lacks : whole; }));
+        EXPECT_FALSE(weather.hours[12].has_illuminance);
+        EXPECT_EQ(weather.hours[12].diffuse, lacks.diffuse);
+        EXPECT_TRUE(weather.hours[13].has_illuminance);
     }
+    // Dusk is dark, and a grey hour has no sun.
+    for (const WeatherOfHour& has :
+         {WeatherOfHour{0.0, 10.0, 0.0, 0.0}, WeatherOfHour{0.0, 100.0, 0.0, 11000.0}})
+        EXPECT_TRUE(read(weather_text([&](int) { return has; })).hours[12].has_illuminance);
     const Weather gap = read(weather_text([](int hour) {
         return WeatherOfHour{hour == 7 ? 9999.0 : 500.0, 100.0, 50000.0, 11000.0};
     }));
     EXPECT_EQ(gap.missing, 1u);
     EXPECT_EQ(gap.hours[7].diffuse, 0.0);
+}
+
+/// At the equator the sun rises and sets at about 6 o'clock: of the hours from 7 to 18, none is at
+/// night; twelve hours later, all are but those of its rise and fall.
+TEST(Weather, CountsSunAtNight)
+{
+    const auto at_night = [](int later) {
+        return read(weather_text(
+                        [&](int hour) {
+                            const int of_day = (hour + later) % 24;
+                            return of_day >= 7 && of_day < 17 ? WeatherOfHour{500.0, 100.0}
+                                                              : WeatherOfHour{};
+                        },
+                        0.0, 15.0, 1.0))
+            .at_night;
+    };
+    EXPECT_EQ(at_night(0), 0u);
+    EXPECT_EQ(at_night(12), 365u * 10u);
+}
+
+TEST(Weather, MayBeginWithAByteOrderMark)
+{
+    EXPECT_EQ(read("\xEF\xBB\xBF" + even_year()).city, "Test");
+}
+
+TEST(Weather, IsRefusedIfItsHoursAreOutOfOrder)
+{
+    const std::string order = "the hour does not follow that of the line before";
+    const auto line_of = [](const char* begin) {
+        return even_year().find(std::string("\n2001,") + begin) + 1;
+    };
+    const auto without = [&](const char* from, const char* to) {
+        std::string text = even_year();
+        return text.erase(line_of(from), line_of(to) - line_of(from));
+    };
+    EXPECT_EQ(error_of(without("1,1,2,", "1,1,3,")), "year.epw: line 10: " + order);
+    EXPECT_EQ(error_of(without("2,27,1,", "2,28,1,")), "year.epw: line 1377: " + order);
+    EXPECT_EQ(error_of(without("4,1,1,", "5,1,1,")), "year.epw: line 2169: " + order);
+    EXPECT_EQ(error_of(without("1,1,1,", "1,1,2,")),
+              "year.epw: line 9: the first hour of the file is not the first of a day");
+    // 28 days of February are enough, 27 and 30 are not.
+    EXPECT_EQ(error_of(without("2,28,1,", "3,1,1,")), "year.epw: line 1401: " + order);
+    std::string text = even_year();
+    text.replace(line_of("4,30,24,"), 13, "2001,4,31,24,");
+    EXPECT_EQ(error_of(text), "year.epw: line 2888: the day 31 is not between 1 and 30");
+    text = even_year();
+    text.replace(line_of("3,1,1,"), 11, "2001,2,30,1,");
+    EXPECT_EQ(error_of(text), "year.epw: line 1425: the day 30 is not between 1 and 29");
+}
+
+TEST(Weather, IsRefusedInTheDarkAndInAnotherTimeZone)
+{
+    const auto even = [](int) { return WeatherOfHour{500.0, 100.0}; };
+    EXPECT_EQ(error_of(weather_text([](int) { return WeatherOfHour{}; })),
+              "year.epw: line 8768: no hour of the file has radiation of sun or sky");
+    EXPECT_EQ(error_of(weather_text(even, 47.5, -19.0, 2.0)),
+              "year.epw: line 1: the longitude -19.000000 is not in the time zone 2.000000: its "
+              "noon is more than 3 hours off");
+    // The west of China, and islands on the other side of the date line.
+    EXPECT_EQ(read(weather_text(even, 39.5, 75.9, 8.0)).hours.size(), 8760u);
+    EXPECT_EQ(read(weather_text(even, 1.9, -157.4, 14.0)).hours.size(), 8760u);
 }
 
 TEST(Weather, IsRefusedWithTheLineAtFault)
@@ -130,8 +202,9 @@ TEST(Weather, IsRefusedWithTheLineAtFault)
     EXPECT_EQ(error_of(whole.substr(0, middle)),
               "year.epw: line 4352: the file ends after 4344 hours of 8760: it is cut short");
     EXPECT_EQ(error_of(whole.substr(0, middle + 40)),
-              "year.epw: line 4353: has 13 columns, but an hour has 19 and more: the file is cut "
-              "short");
+              "year.epw: line 4353: has 13 columns, but an hour has 35: the file is cut short");
+    EXPECT_EQ(error_of(changed(",0.1,0,88,0.2,0,0", ",0.1")),
+              "year.epw: line 9: has 30 columns, but an hour has 35: the file is cut short");
     EXPECT_EQ(error_of("LOCATION,Test,-,-,made,0,47,19,1,100\nCOMMENTS 1\n"),
               "year.epw: line 2: the file ends in its header");
     EXPECT_EQ(error_of(whole.substr(whole.find("DESIGN"))),
@@ -146,8 +219,8 @@ TEST(Weather, IsRefusedWithTheLineAtFault)
               "year.epw: line 9: the month 13 is not between 1 and 12");
     EXPECT_EQ(error_of(changed("2001,1,1,1,", "2001,1,1,1.5,")),
               "year.epw: line 9: the hour must be a whole number");
-    EXPECT_NE(error_of(whole + whole.substr(middle)).find("the file has more hours than a year"),
-              std::string::npos);
+    const std::string rows = whole.substr(whole.find("\n2001,1,1,1,") + 1);
+    EXPECT_EQ(error_of(whole + rows), "year.epw: line 8793: the file has more hours than a year");
     std::string quarters = whole;
     quarters.replace(quarters.find("DATA PERIODS,1,1"), 16, "DATA PERIODS,1,4");
     EXPECT_EQ(error_of(quarters),

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 
 #include "base/core/files.h"
 #include "base/core/parallel.h"
@@ -78,6 +79,30 @@ std::size_t hour_of(const Weather& weather, const DaylightYear& year, const Hour
                             wanted.month, wanted.day, wanted.begins));
 }
 
+/// Says what the weather file has.
+void add_notes(const Weather& weather, const DaylightYear& year, const OccupiedHours& occupied,
+               std::vector<std::string>& notes)
+{
+    std::size_t by_file = 0, by_efficacy = 0;
+    for (std::size_t h = 0; h < year.hours(); ++h)
+        if (const WeatherHour& hour = weather.hours[year.number(h)]; has_light(hour))
+            ++(hour.has_illuminance ? by_file : by_efficacy);
+    notes.push_back(fmt::format(
+        "weather of {} ({:.2f}° N, {:.2f}° E): {} hours from {} to {} o'clock; {} with the "
+        "illuminance of the file, {} with luminous efficacy by Perez et al. 1990, {} dark",
+        weather.city, glm::degrees(weather.latitude), glm::degrees(weather.longitude), year.hours(),
+        occupied.from, occupied.to, by_file, by_efficacy, year.hours() - by_file - by_efficacy));
+    if (weather.missing > 0)
+        notes.push_back(
+            fmt::format("{} hours of the weather file have no radiation values and count as dark",
+                        weather.missing));
+    if (weather.at_night > 0)
+        notes.push_back(fmt::format(
+            "{} hours of the weather file have direct radiation while the sun is more than 5° "
+            "below the horizon: check its place and its time zone",
+            weather.at_night));
+}
+
 /// Measures daylight over the year of the weather file.
 void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather& weather,
                const DaylightOptions& options, MeasureSummary& summary, Stages& stages)
@@ -115,15 +140,7 @@ void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather&
                     .hours = year.hours(),
                     .target = options.target,
                     .figures = figures_of(readings)};
-    summary.notes.push_back(
-        fmt::format("weather of {}: {} hours from {} to {} o'clock, {}", weather.city, year.hours(),
-                    options.occupied.from, options.occupied.to,
-                    weather.has_illuminance
-                        ? "with the illuminance of the file"
-                        : "with illuminance by the luminous efficacy of Perez et al. 1990"));
-    if (weather.missing > 0)
-        summary.notes.push_back(fmt::format(
-            "{} hours of the weather file have no radiation and count as dark", weather.missing));
+    add_notes(weather, year, options.occupied, summary.notes);
 }
 
 /// Illuminance of an open plane, if the overcast sky is the only light.

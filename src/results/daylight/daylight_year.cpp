@@ -76,7 +76,7 @@ DaylightYear::DaylightYear(const Weather& weather, const OccupiedHours& occupied
 /// Adds the sky of an hour, and the light of its sun.
 void DaylightYear::add_sky(const WeatherHour& hour, const Weather& weather, std::size_t index)
 {
-    if (!(hour.diffuse > 0.0))
+    if (!has_light(hour))
         return;
     const SunPosition sun = sun_position(weather.latitude, weather.longitude, hour.middle);
     const PerezSky sky({hour.direct, hour.diffuse, hour.day_of_year, hour.dew_point}, sun);
@@ -91,13 +91,13 @@ void DaylightYear::add_sky(const WeatherHour& hour, const Weather& weather, std:
     for (std::size_t patch = 0; patch < means.size(); ++patch)
         on_plane += means[patch] * patches_.projected(patch);
     const double lux =
-        weather.has_illuminance ? hour.diffuse_lux : hour.diffuse * sky.diffuse_efficacy();
+        hour.has_illuminance ? hour.diffuse_lux : hour.diffuse * sky.diffuse_efficacy();
     for (std::size_t patch = 0; on_plane > 0.0 && patch < means.size(); ++patch)
         luminance_[patch * hours() + index] = float(means[patch] * lux / on_plane);
     suns_[index].direction = glm::vec3(to_sun);
     if (sun.elevation > 0.0)
         suns_[index].lux =
-            float(weather.has_illuminance ? hour.direct_lux : hour.direct * sky.direct_efficacy());
+            float(hour.has_illuminance ? hour.direct_lux : hour.direct * sky.direct_efficacy());
 }
 
 void DaylightYear::place_suns(double latitude)
