@@ -147,6 +147,25 @@ TEST(Daylight, OfAnOpenPointIsAllOfThatOutdoors)
     }
 }
 
+/// An hour without light of the sky keeps its sun.
+TEST(Daylight, OfTheSunAloneIsItsCosine)
+{
+    for (const double lux : {0.0, 60000.0}) {
+        const Weather weather = weather_of(weather_text([&](int hour) {
+            const bool is_noon = hour % 24 == 12;
+            return is_noon ? WeatherOfHour{.direct = 600.0, .direct_lux = lux} : WeatherOfHour{};
+        }));
+        const Site open(open_place(), 16, weather, {12, 13});
+        const std::size_t june = 171;
+        const double up = double(open.year().sun(june).direction.y);
+        EXPECT_GT(up, 0.8);
+        const DaylightCoefficients found = open.daylight().coefficients(open.point({}), 0);
+        // The efficacy of the sun in a clear sky is 100 lm/W within a tenth.
+        EXPECT_NEAR(open.daylight().hour(open.point({}), 0, found, june).lux, 60000.0 * up,
+                    (lux > 0.0 ? 0.01 : 0.1) * 60000.0 * up);
+    }
+}
+
 /// Under a screen with a hole, a black room has the overcast sky's light through the hole alone.
 TEST(Daylight, ThroughAHoleIsItsSkyComponent)
 {

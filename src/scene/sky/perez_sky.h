@@ -12,7 +12,7 @@ namespace lumel {
 /// Radiation of an hour.
 struct Radiation {
     double direct = 0.0;   ///< of the sun on a plane that faces it [W/m²]
-    double diffuse = 0.0;  ///< of the sky on a horizontal plane [W/m²], above 0
+    double diffuse = 0.0;  ///< of the sky on a horizontal plane [W/m²]; above 0 if direct is 0
     int day_of_year = 1;
     double dew_point = 0.0;  ///< [°C]
 };
