@@ -37,7 +37,7 @@ std::string line_of(const MeasureSummary& summary, const MeasureRow& row)
                             kPercent * (row.daylight->useful[1] + row.daylight->useful[2]));
     if (row.daylight && row.daylight->hour)
         line += fmt::format("  {:>10} ± {:.2g}", lux_text(row.daylight->hour->lux),
-                            row.daylight->hour->error());
+                            row.daylight->hour->noise);
     return line + "\n";
 }
 
@@ -61,6 +61,22 @@ std::string list_of(const MeasureSummary& summary)
     return text;
 }
 
+std::string year_of(const MeasuredYear& year)
+{
+    const DaylightFigures& figures = year.figures;
+    if (figures.count == 0)
+        return "daylight over the year: no figures, as all points are outdoors; see --bounds";
+    std::string text = fmt::format(
+        "daylight over the year: mean daylight factor {:.2f} %; sDA {:g} lx, {:g} % of {} hours: "
+        "{:.1f} % of the points; useful daylight (UDI, 100 to 3000 lx): {:.1f} % of the hours",
+        kPercent * figures.factor, year.target, kPercent * kSufficientHours, year.hours,
+        kPercent * figures.sufficient, kPercent * figures.useful);
+    if (figures.outdoors > 0)
+        text += fmt::format("\n{} points are outdoors and left out of these; see --bounds",
+                            figures.outdoors);
+    return text;
+}
+
 std::string plane_of(const MeasureSummary& summary)
 {
     const PlaneFigures& figures = summary.figures;
@@ -75,18 +91,11 @@ std::string plane_of(const MeasureSummary& summary)
     text += fmt::format("minimum {} lx, mean {} lx (± {:.2g}), maximum {} lx, uniformity {:.3f}",
                         lux_text(figures.least), lux_text(figures.mean), figures.noise_of_mean,
                         lux_text(figures.most), figures.uniformity);
-    if (summary.year) {
-        const DaylightFigures& year = summary.year->figures;
-        text +=
-            fmt::format("; mean daylight factor {:.2f} %\n"
-                        "sDA {:g} lx, {:g} % of {} hours: {:.1f} % of the points; useful "
-                        "daylight (UDI, 100 to 3000 lx): {:.1f} % of the hours",
-                        kPercent * year.factor, summary.year->target, kPercent * kSufficientHours,
-                        summary.year->hours, kPercent * year.sufficient, kPercent * year.useful);
-    } else if (summary.outdoors) {
+    if (summary.year)
+        text += "\n" + year_of(*summary.year);
+    else if (summary.outdoors)
         text += fmt::format("; mean daylight factor {:.2f} %",
                             kPercent * figures.mean / *summary.outdoors);
-    }
     return text;
 }
 

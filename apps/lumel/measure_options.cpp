@@ -1,15 +1,14 @@
 // The options of lumel measure.
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <memory>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "base/core/error.h"
-#include "base/core/number.h"
 #include "option_values.h"
 #include "shared_options.h"
 
@@ -64,37 +63,49 @@ void add_places(Command& command, MeasureOptions& options)
           &options.samples, text_of(options.samples), whole(kMinSamples, kMaxSamples)}});
 }
 
+/// A number of one or two digits.
+std::optional<int> digits_of(std::string_view text)
+{
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    if (text.empty() || text.size() > 2 || !std::ranges::all_of(text, is_digit))
+        return std::nullopt;
+    int number = 0;
+    for (const char digit : text)
+        number = 10 * number + (digit - '0');
+    return number;
+}
+
 /// "8-18"
 OccupiedHours hours_of(const std::string& text)
 {
-    constexpr double kHoursOfDay = 24.0;
+    constexpr int kHoursOfDay = 24;
     const std::size_t dash = std::min(text.find('-'), text.size());
     const std::string_view whole = text;
-    const auto from = number_of(whole.substr(0, dash));
-    const auto to = number_of(whole.substr(std::min(dash + 1, text.size())));
-    const auto is_hour = [](double hour) {
-        return hour >= 0.0 && hour <= kHoursOfDay && hour == std::floor(hour);
-    };
-    if (!from || !to || !is_hour(*from) || !is_hour(*to) || !(*from < *to))
+    const auto from = digits_of(whole.substr(0, dash));
+    const auto to = digits_of(whole.substr(std::min(dash + 1, text.size())));
+    if (!from || !to || *to > kHoursOfDay || *from >= *to)
         refuse_value(fmt::format(
             "--hours: '{}' is not of the form FROM-TO with whole hours from 0 to 24", text));
-    return {int(*from), int(*to)};
+    return {*from, *to};
 }
 
 /// "06-21T15"
 HourOfYear hour_of(const std::string& text)
 {
     constexpr int kMonths = 12, kDays = 31, kHoursOfDay = 24;
-    HourOfYear hour;
-    int length = 0;
-    const int read =
-        std::sscanf(text.c_str(), "%2d-%2dT%2d%n", &hour.month, &hour.day, &hour.begins, &length);
-    if (read != 3 || std::size_t(length) != text.size() || hour.month < 1 || hour.month > kMonths ||
-        hour.day < 1 || hour.day > kDays || hour.begins < 0 || hour.begins >= kHoursOfDay)
+    const std::string_view whole = text;
+    const bool has_form =
+        text.size() == std::string_view("MM-DDTHH").size() && text[2] == '-' && text[5] == 'T';
+    const auto part = [&](std::size_t at) {
+        return has_form ? digits_of(whole.substr(at, 2)) : std::nullopt;
+    };
+    const auto month = part(0), day = part(3), begins = part(6);
+    if (!month || !day || !begins || *month < 1 || *month > kMonths || *day < 1 || *day > kDays ||
+        *begins >= kHoursOfDay)
         refuse_value(fmt::format("--hour: '{}' is not of the form MM-DDTHH, as in 06-21T15 for the "
                                  "hour from 15 to 16 o'clock on 21 June",
                                  text));
-    return hour;
+    return {*month, *day, *begins};
 }
 
 void add_daylight(Command& command, DaylightOptions& options)
@@ -115,7 +126,7 @@ void add_daylight(Command& command, DaylightOptions& options)
           .type = "MM-DDTHH",
           .help =
               "Lists the illuminance of one of these hours too, as in 06-21T15 for that from 15 "
-              "to 16 o'clock on 21 June, with its error",
+              "to 16 o'clock on 21 June, with the noise of the point's rays",
           .target = [&options](const std::string& text) { options.hour = hour_of(text); },
           .needs = "--weather"},
          {.names = "--target",

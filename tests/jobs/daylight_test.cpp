@@ -141,8 +141,8 @@ TEST(Daylight, OfAnOpenPointIsAllOfThatOutdoors)
         if (sun.elevation > 0.0)
             expected += hour.direct * sky.direct_efficacy() * std::sin(sun.elevation);
         const HourReading read = open.daylight().hour(open.point({}), 0, found, h);
-        // The disc of the sun is 0.53° wide: at 10° its light varies by 5 % over it.
-        EXPECT_NEAR(read.lux, expected, 0.01 * expected + 0.005 * 1e5 * std::cos(sun.elevation))
+        // A ray goes to any point of the sun's disc: its radius is 0.0047.
+        EXPECT_NEAR(read.lux, expected, 0.01 * expected + 0.005 * double(open.year().sun(h).lux))
             << h;
     }
 }
@@ -222,11 +222,18 @@ TEST(Daylight, AutonomyIsTheShareOfHoursWithEnoughLight)
         EXPECT_NEAR(reading.useful[k], days[k], 1e-9) << k;
     EXPECT_NEAR(reading.mean_lux, 1000.0 * days[2] + 200.0 * days[1] + 50.0 * (36.0 / 365.0), 3.0);
     EXPECT_NEAR(open.read({0.0, 0.0, 0.0}, 150.0).autonomy, days[1] + days[2], 1e-9);
-    // A point counts from half of the hours on.
-    const std::array<DaylightReading, 3> points = {
-        DaylightReading{.autonomy = 0.5}, DaylightReading{.autonomy = 0.49},
-        DaylightReading{.autonomy = 1.0, .inside = true}};
-    EXPECT_EQ(figures_of(points).sufficient, 0.5);
+    // A point counts from half of the hours on, unless it is in an object or outdoors.
+    const std::array<DaylightReading, 4> points = {
+        DaylightReading{.factor = 0.02, .autonomy = 0.5},
+        DaylightReading{.factor = 0.04, .autonomy = 0.49},
+        DaylightReading{.factor = 1.0, .autonomy = 1.0, .inside = true},
+        DaylightReading{.factor = 1.0, .autonomy = 1.0, .open = 0.6}};
+    const DaylightFigures figures = figures_of(points);
+    EXPECT_EQ(figures.sufficient, 0.5);
+    EXPECT_NEAR(figures.factor, 0.03, 1e-12);
+    EXPECT_EQ(figures.count, 2u);
+    EXPECT_EQ(figures.outdoors, 1u);
+    EXPECT_TRUE(reading.is_outdoors());
 }
 
 /// Light that a lumel has is reflected without end: with D everywhere, X = ρ D / (1 − ρ).
@@ -274,6 +281,24 @@ TEST(Daylight, BehindGlassHasItsTint)
     const DaylightReading behind = glazed.read({0.0, 0.0, 0.0}), bare = open.read({0.0, 0.0, 0.0});
     EXPECT_NEAR(behind.factor, double(kTint), 0.01 * double(kTint));
     EXPECT_NEAR(behind.mean_lux, double(kTint) * bare.mean_lux, 0.01 * behind.mean_lux);
+    EXPECT_TRUE(bare.is_outdoors());
+    EXPECT_FALSE(behind.is_outdoors());
+}
+
+TEST(Daylight, OfAYearIsTheMeanOfItsHours)
+{
+    const Weather weather = weather_of(weather_text(mixed));
+    const Site office(unlit_office(), 64, weather, {9, 12});
+    const MeterPoint point = office.point({1.0, 0.85, 2.5});
+    const DaylightCoefficients found = office.daylight().coefficients(point, 0);
+    double sum = 0.0, sun = 0.0;
+    for (std::size_t h = 0; h < office.year().hours(); ++h) {
+        sum += office.daylight().hour(point, 0, found, h).lux;
+        sun += double(office.year().sun(h).lux);
+    }
+    EXPECT_GT(sun, 0.0);
+    const double mean = sum / double(office.year().hours());
+    EXPECT_NEAR(office.daylight().read(point, 0, 300.0).mean_lux, mean, 1e-4 * mean);
 }
 
 TEST(Daylight, HoursOfTheDayAreLocal)
@@ -323,8 +348,11 @@ TEST(Daylight, OfAnHourIsThatOfABakeOfTheSameHour)
         for (std::size_t p = 0; p < std::size(places); ++p) {
             const HourReading hour = site.daylight().hour(site.point(places[p]), 0, found[p], h);
             const Reading single = meter.read(site.point(places[p]), 0);
-            const double stated = std::hypot(hour.error(), single.noise, kBake * single.lux);
+            const double error = std::hypot(hour.noise, hour.interpolation);
+            const double stated = std::hypot(error, single.noise, kBake * single.lux);
             EXPECT_NEAR(hour.lux, single.lux, 3.0 * stated) << wanted << ", place " << p;
+            EXPECT_NEAR(hour.lux, single.lux, 0.04 * single.lux) << wanted << ", place " << p;
+            EXPECT_LT(error, 0.1 * hour.lux) << wanted << ", place " << p;
         }
     }
 }

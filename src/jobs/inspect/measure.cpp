@@ -103,32 +103,51 @@ void add_notes(const Weather& weather, const DaylightYear& year, const OccupiedH
             weather.at_night));
 }
 
-/// Measures daylight over the year of the weather file.
-void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather& weather,
-               const DaylightOptions& options, MeasureSummary& summary, Stages& stages)
+/// The hours of a year, and what the lumels of a bake reflect in them.
+struct Daylight {
+    DaylightYear year;
+    std::optional<std::size_t> hour;  ///< that is measured too
+    ReflectedDaylight reflected;
+};
+
+std::uint32_t seed_in(const FinishedBake& bake)
+{
+    return std::uint32_t(seed_of(bake.record.solver.method));
+}
+
+/// Throws Error{input} if the year lacks the hour, or memory is short.
+Daylight find_daylight(const FinishedBake& bake, const Weather& weather,
+                       const DaylightOptions& options, Stages& stages)
 {
     stages.begin("sky and sun");
-    const DaylightYear year(weather, options.occupied);
+    DaylightYear year(weather, options.occupied);
     std::optional<std::size_t> one;
     if (options.hour)
         one = hour_of(weather, year, *options.hour);
-    stages.note(fmt::format("{} patches of the sky, {} places of the sun", SkyPatches().count(),
+    stages.note(fmt::format("{} patches of the sky, {} positions of the sun", SkyPatches().count(),
                             year.sun_places().size()));
-    const auto seed = std::uint32_t(seed_of(bake.record.solver.method));
     stages.begin("daylight");
-    const ReflectedDaylight reflected(bake.prepared, year.sun_places(), {.seed = seed},
-                                      [&](double part) { return stages.progress(part); });
+    ReflectedDaylight reflected(bake.prepared, year.sun_places(), {.seed = seed_in(bake)},
+                                [&](double part) { return stages.progress(part); });
     if (!reflected.is_complete())
         throw_stopped();
+    return {std::move(year), one, std::move(reflected)};
+}
+
+/// Measures daylight over the year of the weather file.
+void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather& weather,
+               const Daylight& daylight, const DaylightOptions& options, MeasureSummary& summary,
+               Stages& stages)
+{
     stages.begin("hours");
-    const DaylightMeter hours(meter, year, reflected, seed);
+    const DaylightMeter hours(meter, daylight.year, daylight.reflected, seed_in(bake));
     std::vector<MeasureRow>& rows = summary.rows;
     const bool done = parallel_steps(
         rows.size(), kPointsPerStep, kPointsPerTask,
         [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
                 rows[i].daylight = hours.read(meter_point(bake, rows[i].point), std::uint32_t(i),
-                                              options.target, one);
+                                              options.target, daylight.hour);
         },
         [&](std::size_t count) { return stages.progress(double(count) / double(rows.size())); });
     if (!done)
@@ -137,10 +156,10 @@ void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather&
     for (const MeasureRow& row : rows)
         readings.push_back(*row.daylight);
     summary.year = {.city = weather.city,
-                    .hours = year.hours(),
+                    .hours = daylight.year.hours(),
                     .target = options.target,
                     .figures = figures_of(readings)};
-    add_notes(weather, year, options.occupied, summary.notes);
+    add_notes(weather, daylight.year, options.occupied, summary.notes);
 }
 
 /// Illuminance of an open plane, if the overcast sky is the only light.
@@ -170,9 +189,12 @@ Json json_of(const DaylightReading& daylight)
     Json json = {{"factor_noise", kPercent * daylight.factor_noise},
                  {"autonomy", kPercent * daylight.autonomy},
                  {"useful", useful},
-                 {"mean_illuminance", daylight.mean_lux}};
+                 {"mean_illuminance", daylight.mean_lux},
+                 {"outdoors", daylight.is_outdoors()}};
     if (daylight.hour)
-        json["hour"] = {{"illuminance", daylight.hour->lux}, {"error", daylight.hour->error()}};
+        json["hour"] = {{"illuminance", daylight.hour->lux},
+                        {"noise", daylight.hour->noise},
+                        {"interpolation", daylight.hour->interpolation}};
     return json;
 }
 
@@ -208,13 +230,16 @@ Json json_of(const WorkPlane& plane, const MeasureSummary& summary)
     json["maximum"] = figures.most;
     json["uniformity"] = figures.uniformity;
     json["noise_of_mean"] = figures.noise_of_mean;
-    if (summary.year)
-        json["mean_daylight_factor"] = kPercent * summary.year->figures.factor;
-    else if (summary.outdoors)
+    if (summary.outdoors)
         json["mean_daylight_factor"] = kPercent * figures.mean / *summary.outdoors;
-    if (summary.year) {
-        json["sufficient_daylight"] = kPercent * summary.year->figures.sufficient;
-        json["mean_useful_daylight"] = kPercent * summary.year->figures.useful;
+    if (!summary.year)
+        return json;
+    const DaylightFigures& year = summary.year->figures;
+    json["left_out_outdoors"] = year.outdoors;
+    if (year.count > 0) {
+        json["mean_daylight_factor"] = kPercent * year.factor;
+        json["sufficient_daylight"] = kPercent * year.sufficient;
+        json["mean_useful_daylight"] = kPercent * year.useful;
     }
     return json;
 }
@@ -259,7 +284,7 @@ std::string csv_of(const MeasureSummary& summary)
             text += fmt::format(",useful_{}_percent", name);
         text += ",mean_daylight_lx";
         if (!summary.rows.empty() && summary.rows.front().daylight->hour)
-            text += ",hour_lx,hour_error_lx";
+            text += ",hour_lx,hour_noise_lx,hour_interpolation_lx";
     }
     text += "\n";
     for (const MeasureRow& row : summary.rows) {
@@ -280,7 +305,8 @@ std::string csv_of(const MeasureSummary& summary)
             add(row.daylight->mean_lux);
             if (row.daylight->hour) {
                 add(row.daylight->hour->lux);
-                add(row.daylight->hour->error());
+                add(row.daylight->hour->noise);
+                add(row.daylight->hour->interpolation);
             }
         }
         text += "\n";
@@ -346,6 +372,11 @@ MeasureSummary measure(const std::string& folder, const MeasureOptions& options,
             summary.rows.push_back({.point = {.place = place}});
     }
 
+    // Before the plane is traced, which a refused hour would lose.
+    std::optional<Daylight> daylight;
+    if (weather)
+        daylight.emplace(find_daylight(bake, *weather, options.daylight, stages));
+
     stages.begin("rays");
     const LightMeter meter(
         bake.prepared.scene, bake.prepared.rays, bake.prepared.atlas, bake.prepared.lumels,
@@ -358,7 +389,7 @@ MeasureSummary measure(const std::string& folder, const MeasureOptions& options,
         readings.push_back(row.reading);
     summary.figures = figures_of(readings);
     if (weather)
-        read_year(bake, meter, *weather, options.daylight, summary, stages);
+        read_year(bake, meter, *weather, *daylight, options.daylight, summary, stages);
     summary.report = report_of(bake, summary);
 
     stages.begin("writing");

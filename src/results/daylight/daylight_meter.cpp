@@ -90,6 +90,7 @@ DaylightCoefficients DaylightMeter::coefficients(const MeterPoint& point,
     found.inside = meter_.visit_rays(
         point, number, [&](std::uint32_t set, const glm::vec3& direction, const MetLight& met) {
             if (met.is_sky) {
+                found.open += met.tint == glm::vec3(1.0f) ? double(share) / kRaySets : 0.0;
                 const std::uint32_t patch = year_.patches().at(direction);
                 if (patch != SkyPatches::kNone)
                     found.of_sets[set][patch] += share * kPi * float(luminance(met.tint));
@@ -125,59 +126,61 @@ float DaylightMeter::direct_sun(const MeterPoint& point, std::uint32_t number,
     return sun.lux * float(luminance(meter_.light_from(point, direction, samples.bits(kSeedPair))));
 }
 
-/// Illuminance in all hours [lx].
-std::vector<float> DaylightMeter::hours(const MeterPoint& point, std::uint32_t number,
-                                        std::span<const float> coefficients) const
+/// Illuminance [lx] but for direct light of the sun.
+std::vector<float> DaylightMeter::sky_and_reflected(std::span<const float> coefficients,
+                                                    const Hours& hours) const
 {
-    std::vector<float> lux(year_.hours(), 0.0f);
+    std::vector<float> lux(hours.last - hours.first, 0.0f);
     for (std::size_t k = 0; k < patches_; ++k) {
         const float coefficient = coefficients[k];
-        const std::span<const float> luminance = year_.luminance(k);
+        const std::span<const float> luminance = year_.luminance(k).subspan(hours.first);
         for (std::size_t h = 0; coefficient > 0.0f && h < lux.size(); ++h)
             lux[h] += coefficient * luminance[h];
     }
-    for (std::size_t h = 0; h < lux.size(); ++h) {
-        const DaylightYear::Sun& sun = year_.sun(h);
-        if (!(sun.lux > 0.0f))
-            continue;
-        lux[h] += sun.lux * reflected_sun(sun.near, coefficients.subspan(patches_));
-        lux[h] += direct_sun(point, number, h);
-    }
+    for (std::size_t h = 0; h < lux.size(); ++h)
+        if (const DaylightYear::Sun& sun = year_.sun(hours.first + h); sun.lux > 0.0f)
+            lux[h] += sun.lux * reflected_sun(sun.near, coefficients.subspan(patches_));
+    return lux;
+}
+
+/// Illuminance [lx].
+std::vector<float> DaylightMeter::lux_of(const MeterPoint& point, std::uint32_t number,
+                                         const DaylightCoefficients& coefficients,
+                                         const Hours& hours) const
+{
+    std::vector<float> lux = sky_and_reflected(coefficients.mean, hours);
+    for (std::size_t h = 0; h < lux.size(); ++h)
+        lux[h] += direct_sun(point, number, hours.first + h);
     return lux;
 }
 
 HourReading DaylightMeter::hour(const MeterPoint& point, std::uint32_t number,
                                 const DaylightCoefficients& coefficients, std::size_t hour) const
 {
+    const Hours one{hour, hour + 1};
+    HourReading reading{.lux = double(lux_of(point, number, coefficients, one).front())};
+    reading.noise = noise_of([&](std::size_t set) {
+        return double(sky_and_reflected(coefficients.of_sets[set], one).front());
+    });
     const DaylightYear::Sun& sun = year_.sun(hour);
-    std::vector<float> weights(coefficients.mean.size(), 0.0f);
-    const auto noise_by = [&](std::span<const float> by) {
-        return noise_of([&](std::size_t set) { return product(coefficients.of_sets[set], by); });
-    };
-    for (std::size_t k = 0; k < patches_; ++k)
-        weights[k] = year_.luminance(k)[hour];
-    if (!(sun.lux > 0.0f))
-        return {.lux = product(coefficients.mean, weights), .noise = noise_by(weights)};
-    for (const DaylightYear::Sun::Share& share : sun.near)
-        weights[patches_ + share.place] += sun.lux * share.weight;
     const std::span<const float> of_places = std::span(coefficients.mean).subspan(patches_);
-    return {.lux = product(coefficients.mean, weights) + double(direct_sun(point, number, hour)),
-            .noise = noise_by(weights),
-            .interpolation = double(sun.lux * std::abs(reflected_sun(sun.near, of_places) -
-                                                       reflected_sun(sun.wide, of_places)))};
+    if (sun.lux > 0.0f)
+        reading.interpolation = double(sun.lux * std::abs(reflected_sun(sun.near, of_places) -
+                                                          reflected_sun(sun.wide, of_places)));
+    return reading;
 }
 
 DaylightReading DaylightMeter::read(const MeterPoint& point, std::uint32_t number, double target,
                                     std::optional<std::size_t> one) const
 {
     const DaylightCoefficients found = coefficients(point, number);
-    DaylightReading reading{.inside = found.inside};
+    DaylightReading reading{.open = found.open, .inside = found.inside};
     const auto factor = [&](std::span<const float> coefficients) {
         return product(coefficients.first(patches_), overcast_);
     };
     reading.factor = factor(found.mean);
     reading.factor_noise = noise_of([&](std::size_t set) { return factor(found.of_sets[set]); });
-    const std::vector<float> lux = hours(point, number, found.mean);
+    const std::vector<float> lux = lux_of(point, number, found, {0, year_.hours()});
     if (one)
         reading.hour = hour(point, number, found, *one);
     const double share = lux.empty() ? 0.0 : 1.0 / double(lux.size());
@@ -196,7 +199,8 @@ DaylightFigures figures_of(std::span<const DaylightReading> readings)
 {
     DaylightFigures figures;
     for (const DaylightReading& reading : readings) {
-        if (reading.inside)
+        figures.outdoors += reading.is_outdoors() ? 1 : 0;
+        if (reading.inside || reading.is_outdoors())
             continue;
         ++figures.count;
         figures.factor += reading.factor;

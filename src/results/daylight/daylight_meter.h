@@ -2,7 +2,6 @@
 // Daylight at a point: of one hour, and figures over the occupied hours of a year.
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,12 +15,15 @@ namespace lumel {
 inline constexpr std::array<double, 3> kUsefulDaylight = {100.0, 300.0, 3000.0};
 /// Share of the occupied hours with the target illuminance, from which on a point counts. [LM83]
 inline constexpr double kSufficientHours = 0.5;
+/// Share of the rays of a point that reach the sky through no glass, above which it is outdoors.
+inline constexpr double kOutdoors = 0.5;
 
 /// Daylight coefficients [TW83] of a point by luminance: of the patches of a DaylightYear, then of
 /// the places of its sun, reflected light only.
 struct DaylightCoefficients {
     std::vector<std::vector<float>> of_sets;  ///< [kRaySets] by independent rays
     std::vector<float> mean;
+    double open = 0.0;    ///< share of the rays that reach the sky through no glass
     bool inside = false;  ///< as Reading::inside
 };
 
@@ -29,11 +31,8 @@ struct DaylightCoefficients {
 struct HourReading {
     double lux = 0.0;
     double noise = 0.0;  ///< standard error by the rays of the point alone [lx]
-    /// Of the sun's reflected light, by how much its place between others matters: an upper
-    /// estimate of that error [lx].
+    /// Error by interpolation of the sun's position: an estimate, from a grid twice as wide [lx].
     double interpolation = 0.0;
-
-    double error() const { return std::hypot(noise, interpolation); }
 };
 
 struct DaylightReading {
@@ -43,7 +42,10 @@ struct DaylightReading {
     std::array<double, 4> useful{};  ///< shares of the hours in the ranges of kUsefulDaylight
     double mean_lux = 0.0;           ///< over the occupied hours [lx]
     std::optional<HourReading> hour = {};  ///< if it was asked for
+    double open = 0.0;                     ///< as DaylightCoefficients::open
     bool inside = false;                   ///< as Reading::inside
+
+    bool is_outdoors() const { return !inside && open > kOutdoors; }
 };
 
 /// Thread-safe.
@@ -65,8 +67,14 @@ public:
 
 private:
     float direct_sun(const MeterPoint& point, std::uint32_t number, std::size_t hour) const;
-    std::vector<float> hours(const MeterPoint& point, std::uint32_t number,
-                             std::span<const float> coefficients) const;
+    /// Hours [first, last) of the year.
+    struct Hours {
+        std::size_t first, last;
+    };
+    std::vector<float> sky_and_reflected(std::span<const float> coefficients,
+                                         const Hours& hours) const;
+    std::vector<float> lux_of(const MeterPoint& point, std::uint32_t number,
+                              const DaylightCoefficients& coefficients, const Hours& hours) const;
 
     const LightMeter& meter_;
     const DaylightYear& year_;
@@ -77,9 +85,9 @@ private:
     std::vector<float> overcast_;  ///< [patches_] luminance of the overcast sky per lux [cd/m²/lx]
 };
 
-/// Figures of a plane, over the points that are not inside objects.
+/// Figures of a plane, over the points that are neither inside objects nor outdoors.
 struct DaylightFigures {
-    std::size_t count = 0;
+    std::size_t count = 0, outdoors = 0;
     double factor = 0.0;      ///< mean daylight factor
     double sufficient = 0.0;  ///< share of the points with kSufficientHours: sDA
     double useful = 0.0;      ///< mean share of hours in the two middle ranges
