@@ -169,8 +169,7 @@ void LinkTracer::end_or_reflect(RayBatch& wave, int reflections) const
             continue;
         if (!arrival.looks_around)
             path.light += path.weight * albedo * direct_.at(arrival.lumel, arrival.cell);
-        // Of light from outside, only that at lumels is known.
-        if (lamps_ && (!arrival.looks_around || lamps_->all.empty()))
+        if (lamps_ && (!arrival.looks_around || outside_light_))
             wave.shares.push_back(
                 {arrival.path, NearShare::kEveryLamp,
                  LinkEnd::of(numbers_.of_part(parts_.part(arrival.lumel, arrival.cell)),

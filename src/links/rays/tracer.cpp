@@ -26,7 +26,8 @@ constexpr float kNearForCells = 1.0f;
 }  // namespace
 
 LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-                       const DirectEstimator& direct, std::uint32_t seed, const LampTable* lamps)
+                       const DirectEstimator& direct, std::uint32_t seed, const LampTable* lamps,
+                       bool outside_light)
     : work_(work),
       parts_(parts),
       numbers_(numbers),
@@ -35,6 +36,7 @@ LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkN
       hits_(work.scene.scene, work.scene.atlas, work.scene.lumels),
       seed_(seed),
       lamps_(lamps),
+      outside_light_(outside_light),
       margin_(work.scene.rays.ray_offset())
 {
 }

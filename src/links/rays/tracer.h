@@ -28,10 +28,11 @@ inline constexpr std::uint32_t kLinkDirectionPair = 1;
 /// Traces rays from lumels until they hit a sub-lumel.
 class LinkTracer {
 public:
-    /// All arguments must outlive this. lamps: whose light is kept apart, or null;
-    /// none of them: all light is from outside, see LinkRadiosity::reflected().
+    /// All arguments must outlive this. lamps: whose light is kept apart, or null. outside_light:
+    /// light is known at lumels only, see LinkRadiosity::reflected().
     LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-               const DirectEstimator& direct, std::uint32_t seed, const LampTable* lamps = nullptr);
+               const DirectEstimator& direct, std::uint32_t seed, const LampTable* lamps = nullptr,
+               bool outside_light = false);
 
     std::size_t blocks() const { return (work_.order.size() + kLinkBlock - 1) / kLinkBlock; }
 
@@ -95,6 +96,7 @@ private:
     NearLumels hits_;
     std::uint32_t seed_;
     const LampTable* lamps_;
+    bool outside_light_;
     float margin_;  ///< [m] of boxes
 };
 

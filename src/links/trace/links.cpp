@@ -222,7 +222,8 @@ void LinkRadiosity::cut()
 void LinkRadiosity::find_light()
 {
     direct_.emplace(work_, PathSamples::hash(options_.seed, kDirectStream), &*parts_, lamps());
-    tracer_.emplace(work_, *parts_, *numbers_, *direct_, options_.seed, lamps());
+    tracer_.emplace(work_, *parts_, *numbers_, *direct_, options_.seed, lamps(),
+                    options_.outside_light);
     for (std::optional<LinkTable>& links : links_)
         links.emplace(parts_->count());
     sealed_.emplace(work_, *parts_, *numbers_);
