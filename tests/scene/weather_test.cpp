@@ -79,7 +79,7 @@ TEST(Weather, HasTheHoursAndThePlaceOfItsFile)
 }
 
 /// At Greenwich on 21 June the sun rises at 3:43 and is highest at 12:02 UTC.
-TEST(Weather, TheMiddleOfItsHoursIsWhereTheSunStands)
+TEST(Weather, TheSunIsThatOfTheMiddleOfItsHours)
 {
     const Weather weather =
         read(weather_text([](int) { return WeatherOfHour{.diffuse = 1.0}; }, 51.4779, 0.0, 0.0));

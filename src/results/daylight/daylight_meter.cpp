@@ -3,7 +3,7 @@
 //     E = Σ_k L_k C_k + E_s (τ cosθ_s + Σ_p w_p C_p)                          [TW83]
 //
 // C_k is π/R Σ τ over the rays that leave through k, plus the light of the lumels that rays hit,
-// 1/R Σ τ B_k; C_p is the latter for the sun at place p, with weights w_p (daylight_year.cpp).
+// 1/R Σ τ B_k; C_p is the latter for the sun at position p, with weights w_p (daylight_year.cpp).
 // Direct light of the sun takes one shadow ray an hour to a random point of its disc.
 //
 // [LM83] IES LM-83-12. Spatial Daylight Autonomy (sDA) and Annual Sunlight Exposure (ASE).
@@ -45,7 +45,7 @@ double noise_of(const Of& of)
     return standard_error(squares);
 }
 
-/// For a sun of 1 lx, by the coefficients of its places.
+/// For a sun of 1 lx, by the coefficients of its positions.
 float reflected_sun(std::span<const DaylightYear::Sun::Share> shares,
                     std::span<const float> of_places)
 {

@@ -19,7 +19,7 @@ inline constexpr double kSufficientHours = 0.5;
 inline constexpr double kOutdoors = 0.5;
 
 /// Daylight coefficients [TW83] of a point by luminance: of the patches of a DaylightYear, then of
-/// the places of its sun, reflected light only.
+/// the positions of its sun, reflected light only.
 struct DaylightCoefficients {
     std::vector<std::vector<float>> of_sets;  ///< [kRaySets] by independent rays
     std::vector<float> mean;

@@ -2,7 +2,7 @@
 // horizontal plane exact. The sun is that of the middle of the hour.
 //
 // Over a year the sun stays between two circles of declination. For what surfaces reflect of it,
-// its place is interpolated, linearly in declination and hour angle, between the places of a grid.
+// its position is interpolated, linearly in declination and hour angle, between those of a grid.
 // With up U, north N, east E and latitude φ:
 //
 //     pole P = cos φ N + sin φ U      meridian M = −sin φ N + cos φ U

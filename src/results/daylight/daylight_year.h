@@ -33,20 +33,20 @@ public:
         return std::span(luminance_).subspan(patch * hours(), hours());
     }
 
-    /// The sun of an hour, its light as a part of that from places of a grid.
+    /// The sun of an hour, its light interpolated between positions on a grid.
     struct Sun {
         glm::vec3 direction{0.0f, 1.0f, 0.0f};  ///< unit, to it
         float lux = 0.0f;                       ///< on a plane that faces it; 0 below the horizon
         struct Share {
             std::uint32_t place;  ///< index into sun_places()
-            float weight;         ///< that add up to 1
+            float weight;         ///< the four add up to 1
         };
         std::array<Share, 4> near{};
-        /// Of a grid twice as wide, which tells the error of interpolation.
+        /// Of a grid twice as wide, for the error of interpolation.
         std::array<Share, 4> wide{};
     };
     const Sun& sun(std::size_t hour) const { return suns_[hour]; }
-    /// Unit directions to the places between which the sun is interpolated.
+    /// Unit directions to the positions between which the sun is interpolated.
     std::span<const glm::vec3> sun_places() const { return places_; }
 
 private:

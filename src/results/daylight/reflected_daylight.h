@@ -1,5 +1,5 @@
 #pragma once
-// What each lumel reflects of each part of the sky and of the sun at each of its places.
+// Daylight coefficients of lumels.
 
 #include <cstdint>
 #include <functional>
@@ -14,11 +14,11 @@
 namespace lumel {
 
 struct ReflectedDaylightOptions {
-    std::uint32_t sky_rays = 128;  ///< of a lumel that look for the sky
+    std::uint32_t sky_rays = 128;  ///< of a lumel
     /// Shadow rays of all lumels to each place of the sun, at least one each: patches of sun take
     /// as many whatever the size of lumels.
     std::uint32_t sun_rays = 100'000;
-    std::uint32_t link_rays = 96;  ///< of a lumel that look for other lumels
+    std::uint32_t link_rays = 96;  ///< of a lumel
     std::uint32_t seed = 1;
 };
 

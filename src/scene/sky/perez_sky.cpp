@@ -128,12 +128,12 @@ PerezSky::PerezSky(const Radiation& radiation, const SunPosition& sun)
                              kLeastBrightness, kMostBrightness);
     bin_ = std::size_t(std::upper_bound(kClearness.begin(), kClearness.end(), clearness_) -
                        kClearness.begin());
-    // Nor are there dark skies of middling clearness.
-    constexpr double kLeastOfMiddling = 0.2;
-    constexpr std::size_t kFirstMiddling = 1, kLastMiddling = 4;
+    // Minimum Δ of bins 1–4, as in gendaylit.
+    constexpr double kLeastDelta = 0.2;
+    constexpr std::size_t kFirstBin = 1, kLastBin = 4;
     double delta = brightness_;
-    if (bin_ >= kFirstMiddling && bin_ <= kLastMiddling)
-        delta = std::max(delta, kLeastOfMiddling);
+    if (bin_ >= kFirstBin && bin_ <= kLastBin)
+        delta = std::max(delta, kLeastDelta);
     const auto term = [&](const std::array<double, 4>& x) {
         return x[0] + x[1] * zenith_ + delta * (x[2] + x[3] * zenith_);
     };
