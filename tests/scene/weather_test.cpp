@@ -134,22 +134,23 @@ TEST(Weather, WithoutIlluminanceIsReadByItsRadiation)
     EXPECT_EQ(gap.hours[7].diffuse, 0.0);
 }
 
-/// At the equator the sun rises and sets at about 6 o'clock: of the hours from 7 to 18, none is at
-/// night; twelve hours later, all are but those of its rise and fall.
+/// At the equator, half an hour east of the meridian of its time zone, the sun is within 5° of the
+/// horizon at 5:30 and 17:30. No hour from 5 to 18 is at night; twelve hours later, all but two
+/// are.
 TEST(Weather, CountsSunAtNight)
 {
     const auto at_night = [](int later) {
         return read(weather_text(
                         [&](int hour) {
                             const int of_day = (hour + later) % 24;
-                            return of_day >= 7 && of_day < 17 ? WeatherOfHour{500.0, 100.0}
+                            return of_day >= 5 && of_day < 18 ? WeatherOfHour{500.0, 100.0}
                                                               : WeatherOfHour{};
                         },
-                        0.0, 15.0, 1.0))
+                        0.0, 22.5, 1.0))
             .at_night;
     };
     EXPECT_EQ(at_night(0), 0u);
-    EXPECT_EQ(at_night(12), 365u * 10u);
+    EXPECT_EQ(at_night(12), 365u * 11u);
 }
 
 TEST(Weather, MayBeginWithAByteOrderMark)
