@@ -288,7 +288,7 @@ TEST(Daylight, BehindGlassHasItsTint)
 TEST(Daylight, OfAYearIsTheMeanOfItsHours)
 {
     const Weather weather = weather_of(weather_text(mixed));
-    const Site office(unlit_office(), 64, weather, {9, 12});
+    const Site office(unlit_office(), 64, weather, {14, 17});
     const MeterPoint point = office.point({1.0, 0.85, 2.5});
     const DaylightCoefficients found = office.daylight().coefficients(point, 0);
     double sum = 0.0, sun = 0.0;
