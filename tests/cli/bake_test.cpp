@@ -78,7 +78,7 @@ TEST(Bake, ReportAndSceneStateTheExposureOfThePictures)
     EXPECT_FALSE(scene.contains("images"));
     EXPECT_EQ(report["settings"]["lightmap-format"], "none");
     EXPECT_EQ(report["settings"]["compress"], "meshopt");
-    EXPECT_EQ(scene["extensionsRequired"], nlohmann::json({"EXT_meshopt_compression"}));
+    EXPECT_FALSE(scene.contains("extensionsRequired"));  // its few triangles would take more
 }
 
 TEST(Bake, TakesAnExposureThatItsCorrectionsKeep)
