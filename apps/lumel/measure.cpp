@@ -72,8 +72,10 @@ std::string year_of(const MeasuredYear& year)
         kPercent * figures.factor, year.target, kPercent * kSufficientHours, year.hours,
         kPercent * figures.sufficient, kPercent * figures.useful);
     if (figures.outdoors > 0)
-        text += fmt::format("\n{} points are outdoors and left out of these; see --bounds",
-                            figures.outdoors);
+        text += fmt::format("\nleft out of these: {} outdoors; see --bounds",
+                            figures.outdoors == 1
+                                ? "1 point that is"
+                                : fmt::format("{} points that are", figures.outdoors));
     return text;
 }
 

@@ -242,7 +242,7 @@ TEST(Measure, PointsOutdoorsAreNoPartOfTheDaylightOfARoom)
     EXPECT_EQ(plane["sufficient_daylight"], 0.0);
     EXPECT_EQ(plane["mean_daylight_factor"], 0.0);
     const Outcome printed = bake.measure(command(all));
-    EXPECT_NE(printed.out.find("\n45 points are outdoors and left out of these; see --bounds"),
+    EXPECT_NE(printed.out.find("\nleft out of these: 45 points that are outdoors; see --bounds"),
               std::string::npos)
         << printed.out;
     EXPECT_FALSE(bake.json(command(outside))["plane"].contains("sufficient_daylight"));

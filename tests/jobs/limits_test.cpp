@@ -66,7 +66,8 @@ TEST(Time, ThatWasTooShortForTheFirstLightIsAWarning)
     EXPECT_TRUE(warnings(100.0).empty());
     EXPECT_TRUE(warnings(0.0).empty());
     ASSERT_EQ(warnings(1e-9).size(), 1u);
-    EXPECT_EQ(warnings(1e-9)[0].find("the time limit of 1e-09 s was too short: the first light"),
+    EXPECT_EQ(warnings(1e-9)[0].find(
+                  "the time limit of 1e-09 s was too short: all lumels had their first light"),
               0u);
 }
 
