@@ -61,8 +61,8 @@ void check_scenes(const CompareArguments& arguments, const Image& map, const Ima
     if (one && other && one->hash != other->hash && !covers_the_same(map, reference))
         throw Error(ErrorKind::input, arguments.map,
                     "is of " + one->file + " and " + arguments.reference + " is of " + other->file +
-                        ", whose charts are others, so that texels do not correspond; compare two "
-                        "bakes of one scene");
+                        ": their charts differ, so texels do not correspond; compare two bakes of "
+                        "one scene");
 }
 
 void print_json(const MapError& error)

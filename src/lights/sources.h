@@ -31,8 +31,9 @@ struct LightSelection {
     std::vector<std::uint32_t> instances{};  ///< whose surfaces count; empty: all
 };
 
-/// Lamps and suns alone.
+/// Lamps and suns alone, and none.
 inline const LightSelection kLampsAlone{.surfaces = false, .sky = false};
+inline const LightSelection kNoSources{.surfaces = false, .lamps = false, .sky = false};
 
 /// The light sources of a scene, to be sampled by shadow rays.
 class LightSources {

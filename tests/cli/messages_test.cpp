@@ -220,7 +220,7 @@ TEST(Messages, MapsOfTwoScenesAreNotCompared)
     const std::string box = place.path("cornell-box/lightmap.exr");
     const std::string room = place.path("room/lightmap.exr");
     expect_one_sentence(run_lumel({"compare", box, room}), 2,
-                        {"is of cornell-box.gltf", "is of room.gltf", "charts are others"});
+                        {"is of cornell-box.gltf", "is of room.gltf", "their charts differ"});
     EXPECT_FALSE(std::filesystem::exists(place.path("cornell-box/lightmap-vs-lightmap.png")));
     // Maps without a record are compared.
     const std::string alone = place.file("alone.exr", bytes_of(room));

@@ -72,8 +72,7 @@ private:
 /// light changes within a lumel, but is stored per sub-lumel only.
 inline constexpr float kNearSides = 2.0f;
 
-/// A ray whose first hit is near or on a half-covered lumel, or that crossed glass: what sweeps
-/// read of it.
+/// A ray whose first hit is near or on a half-covered lumel, or that crossed glass.
 struct NearLink {
     std::uint32_t slot;  ///< index of the ray in its block
     LinkEnd end;
@@ -92,7 +91,7 @@ struct NearLink {
     }
 };
 
-/// What else is known of a near link.
+/// The part of a near link that sweeps do not read.
 struct NearLight {
     static constexpr float kNoHit = std::numeric_limits<float>::max();
 

@@ -60,7 +60,8 @@ void LinkRadiosity::drop_round_in_progress()
 }
 
 /// brought() of kLampLanes lamps at once [N][kLampLanes]. received: their X [P][kLampLanes].
-std::vector<glm::vec3> LinkRadiosity::brought_by(const LampsReflected& reflected,
+template <class Reflected>
+std::vector<glm::vec3> LinkRadiosity::brought_by(const Reflected& reflected,
                                                  const SourceTerm& source, const LinkTable& links,
                                                  const std::vector<glm::vec3>& received) const
 {
@@ -88,7 +89,8 @@ std::vector<glm::vec3> LinkRadiosity::brought_by(const LampsReflected& reflected
 }
 
 /// The links of one solution tell what surfaces send, a gather along those of each what arrives.
-LinkRadiosity::LampSolutions LinkRadiosity::solve_lamps(const LampsReflected& reflected)
+template <class Reflected>
+LinkRadiosity::LampSolutions LinkRadiosity::solve_lamps(const Reflected& reflected) const
 {
     LampSolutions found;
     std::vector<glm::vec3> bounced;
@@ -158,30 +160,12 @@ void LinkRadiosity::add_direct_lamps(std::vector<LampLight>& lamps, std::vector<
 
 std::vector<glm::vec3> LinkRadiosity::reflected(std::span<const glm::vec3> direct) const
 {
-    const GivenReflected reflected(work_, *parts_, *numbers_, direct);
-    std::vector<glm::vec3> mean(direct.size(), glm::vec3(0.0f)), bounced;
-    for (std::size_t k = 0; k < kSolutions; ++k) {
-        const LinkTable& links = *links_[k];
-        const SourceTerm source = find_source_term(work_, *parts_, *numbers_, reflected, links);
-        std::vector<glm::vec3> received = bounced;
-        if (k == 0) {
-            solver_->solve_lamps(links, source, std::max(sweep_residual(), kLampResidual), bounced);
-            received = bounced;
-        } else {
-            solver_->gather_lamps(links, source, received);
-        }
-        parallel_for(work_.lumels().size(), kLumelsPerTask, [&](std::size_t from, std::size_t to) {
-            for (std::size_t i = from; i < to; ++i) {
-                float rays = 0.0f;
-                for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
-                    rays += source.rays[p];
-                for (std::uint32_t p = parts_->first(i); rays > 0.0f && p < parts_->end(i); ++p)
-                    for (std::size_t lane = 0; lane < kLampLanes; ++lane)
-                        mean[i * kLampLanes + lane] += source.rays[p] / (rays * float(kSolutions)) *
-                                                       received[p * kLampLanes + lane];
-            }
-        });
-    }
+    const LampSolutions found = solve_lamps(OutsideReflected(work_, *parts_, *numbers_, direct));
+    std::vector<glm::vec3> mean(direct.size());
+    parallel_for(mean.size(), kLumelsPerTask, [&](std::size_t from, std::size_t to) {
+        for (std::size_t n = from; n < to; ++n)
+            mean[n] = (found.light[0][n] + found.light[1][n] + found.light[2][n]) / 3.0f;
+    });
     return mean;
 }
 

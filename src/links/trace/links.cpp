@@ -41,7 +41,6 @@ constexpr std::size_t kBlocksPerDrawing = 512;
 constexpr double kDirectOfRound = 0.5;
 /// Minimum mean albedo of rooms whose level is balanced.
 constexpr double kBrightRoom = 0.95;
-const LightSelection kNoSources{.surfaces = false, .lamps = false, .sky = false};
 
 /// Adds the elapsed time to a stage [ms].
 class Stopwatch {

@@ -205,10 +205,12 @@ private:
     void combine();
     void drop_round_in_progress();
     struct LampSolutions;
-    std::vector<glm::vec3> brought_by(const LampsReflected& reflected, const SourceTerm& source,
+    template <class Reflected>
+    std::vector<glm::vec3> brought_by(const Reflected& reflected, const SourceTerm& source,
                                       const LinkTable& links,
                                       const std::vector<glm::vec3>& received) const;
-    LampSolutions solve_lamps(const LampsReflected& reflected);
+    template <class Reflected>
+    LampSolutions solve_lamps(const Reflected& reflected) const;
     bool add_indirect_lamps(std::vector<LampLight>& lamps, std::vector<double>& squares,
                             const std::function<bool(double)>& progress);
     void add_direct_lamps(std::vector<LampLight>& lamps, std::vector<double>& squares);

@@ -125,8 +125,8 @@ LaneLight<kLampLanes> LampsReflected::of_sky(const glm::vec3& light) const
     return lanes;
 }
 
-GivenReflected::GivenReflected(const LinkWork& work, const SubLumels& parts,
-                               const LinkNumbers& numbers, std::span<const glm::vec3> direct)
+OutsideReflected::OutsideReflected(const LinkWork& work, const SubLumels& parts,
+                                   const LinkNumbers& numbers, std::span<const glm::vec3> direct)
     : of_number_(numbers.count(), LaneLight<kLampLanes>{})
 {
     parallel_for(work.lumels().size(), kSourcesPerTask, [&](std::size_t from, std::size_t to) {
@@ -141,7 +141,7 @@ GivenReflected::GivenReflected(const LinkWork& work, const SubLumels& parts,
     });
 }
 
-LaneLight<kLampLanes> GivenReflected::near(std::span<const NearShare> shares) const
+LaneLight<kLampLanes> OutsideReflected::near(std::span<const NearShare> shares) const
 {
     LaneLight<kLampLanes> sum{};
     for (const NearShare& share : shares)
@@ -176,7 +176,7 @@ LaneLight<kLampLanes> near_light(const LampsReflected& reflected, const NearLigh
     return reflected.near(shares);
 }
 
-LaneLight<kLampLanes> near_light(const GivenReflected& reflected, const NearLight&,
+LaneLight<kLampLanes> near_light(const OutsideReflected& reflected, const NearLight&,
                                  std::span<const NearShare> shares)
 {
     return reflected.near(shares);
@@ -283,7 +283,7 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
 }
 
 SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
-                            const LinkNumbers& numbers, const GivenReflected& reflected,
+                            const LinkNumbers& numbers, const OutsideReflected& reflected,
                             const LinkTable& links)
 {
     return sum_over_rays<kLampLanes>(work, parts, numbers, reflected, links);

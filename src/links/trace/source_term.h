@@ -48,7 +48,7 @@ public:
 
 private:
     static constexpr std::uint32_t kEven = ~0u;
-    /// What a link needs in one read. Where cells differ, the albedo, and index_of_cells().
+    /// Side by side, as links read both. Where cells differ: the albedo and index_of_cells().
     struct OfNumber {
         glm::vec3 light_or_albedo{0.0f};
         std::uint32_t cells = kEven;
@@ -93,11 +93,11 @@ private:
 
 /// Light of a few sources that are not in the scene, as each number of a link's end reflects it
 /// [lm/m²].
-class GivenReflected {
+class OutsideReflected {
 public:
     /// direct: light of kLampLanes sources at each lumel [N][kLampLanes] [lx].
-    GivenReflected(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-                   std::span<const glm::vec3> direct);
+    OutsideReflected(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
+                     std::span<const glm::vec3> direct);
 
     const LaneLight<kLampLanes>& at(LinkEnd end, LaneLight<kLampLanes>&) const
     {
@@ -120,7 +120,7 @@ SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
                             const LinkNumbers& numbers, const LampsReflected& reflected,
                             const LinkTable& links);
 SourceTerm find_source_term(const LinkWork& work, const SubLumels& parts,
-                            const LinkNumbers& numbers, const GivenReflected& reflected,
+                            const LinkNumbers& numbers, const OutsideReflected& reflected,
                             const LinkTable& links);
 
 /// Distances that the rays of several tables went, about.

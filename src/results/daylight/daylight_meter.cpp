@@ -81,7 +81,7 @@ DaylightMeter::DaylightMeter(const LightMeter& meter, const DaylightYear& year,
 DaylightCoefficients DaylightMeter::coefficients(const MeterPoint& point,
                                                  std::uint32_t number) const
 {
-    const std::size_t wholes = SkyPatches().count(), places = reflected_.count() - wholes;
+    const std::size_t places = year_.sun_places().size(), wholes = reflected_.count() - places;
     DaylightCoefficients found;
     found.of_sets.assign(kRaySets, std::vector<float>(patches_ + places, 0.0f));
     std::vector<std::vector<double>> by_lumels(kRaySets,
@@ -175,14 +175,16 @@ DaylightReading DaylightMeter::read(const MeterPoint& point, std::uint32_t numbe
 {
     const DaylightCoefficients found = coefficients(point, number);
     DaylightReading reading{.open = found.open, .inside = found.inside};
+    if (one)
+        reading.hour = found.inside ? HourReading{} : hour(point, number, found, *one);
+    if (found.inside)
+        return reading;
     const auto factor = [&](std::span<const float> coefficients) {
         return product(coefficients.first(patches_), overcast_);
     };
     reading.factor = factor(found.mean);
     reading.factor_noise = noise_of([&](std::size_t set) { return factor(found.of_sets[set]); });
     const std::vector<float> lux = lux_of(point, number, found, {0, year_.hours()});
-    if (one)
-        reading.hour = hour(point, number, found, *one);
     const double share = lux.empty() ? 0.0 : 1.0 / double(lux.size());
     for (const float value : lux) {
         const auto range =

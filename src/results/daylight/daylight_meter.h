@@ -43,7 +43,7 @@ struct DaylightReading {
     double mean_lux = 0.0;           ///< over the occupied hours [lx]
     std::optional<HourReading> hour = {};  ///< if it was asked for
     double open = 0.0;                     ///< as DaylightCoefficients::open
-    bool inside = false;                   ///< as Reading::inside
+    bool inside = false;                   ///< as Reading::inside; the figures are then 0
 
     bool is_outdoors() const { return !inside && open > kOutdoors; }
 };
@@ -81,7 +81,7 @@ private:
     const ReflectedDaylight& reflected_;
     std::uint32_t seed_;
     std::size_t patches_;          ///< of the year
-    std::vector<float> share_;     ///< [patches_] solid angle as a part of the whole patch's
+    std::vector<float> share_;     ///< [patches_] fraction of the solid angle of its whole patch
     std::vector<float> overcast_;  ///< [patches_] luminance of the overcast sky per lux [cd/m²/lx]
 };
 

@@ -13,7 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
+
+#include <glm/trigonometric.hpp>
 
 #include "scene/sky/perez_sky.h"
 #include "scene/sky/sun.h"
@@ -23,10 +24,9 @@ namespace {
 
 /// Parts of an angle of a patch for light that is not reflected: patches of 6°.
 constexpr std::size_t kDivision = 2;
-constexpr double kDegree = std::numbers::pi / 180.0;
-/// Steps of the grid: half an hour of the sun's way, and a sixth of the range of declination.
-constexpr double kHourStep = 7.5 * kDegree;
-constexpr double kObliquity = 23.44 * kDegree;
+/// Steps of the grid: half an hour, and a sixth of the range of declination.
+constexpr double kHourStep = glm::radians(7.5);
+constexpr double kObliquity = glm::radians(23.44);
 constexpr double kDeclinationStep = kObliquity / 3.0;
 
 /// Directions about a place of a latitude.

@@ -1,5 +1,5 @@
 // Daylight coefficients [TW83] of lumels. Direct light of patch k of the sky, by R rays of density
-// cosθ / π, and of the sun at a place s by shadow rays, with the transmittance τ of glass:
+// cosθ / π, and of the sun at position s by shadow rays, with the transmittance τ of glass:
 //
 //     D_k = π/R Σ τ over the rays that leave through k,        D_s = τ cosθ_s
 //
@@ -13,11 +13,12 @@
 
 #include "atlas/cells/ray_origins.h"
 #include "base/core/error.h"
+#include "base/core/frame.h"
 #include "base/core/parallel.h"
 #include "base/core/pi.h"
+#include "base/core/sphere.h"
 #include "base/core/usage.h"
 #include "links/trace/links.h"
-#include "rays/paths/directions.h"
 #include "rays/paths/samples.h"
 
 namespace lumel {
@@ -79,9 +80,8 @@ private:
     void add_sky(std::size_t lumel, const PathSamples& samples, glm::vec3* light) const
     {
         const RayOrigin start = starts_.start(lumel, samples.stratified(kStartPair));
-        const glm::vec2 disc = square_to_disc(samples.stratified(kWayPair));
-        const float up = std::sqrt(std::max(1.0f - glm::dot(disc, disc), 0.0f));
-        const glm::vec3 direction = turn_to(start.normal, disc.x, disc.y, up);
+        const glm::vec3 direction =
+            frame_about(start.normal) * by_cosine(samples.stratified(kWayPair));
         const std::uint32_t patch = patches_.at(direction);
         if (patch != SkyPatches::kNone && start.cosine(direction) > 0.0f)
             light[patch] +=
@@ -95,7 +95,7 @@ private:
     SkyPatches patches_;
     WorldLumels world_;
     RayOrigins starts_;
-    std::uint32_t sun_rays_;  ///< of a lumel to a place
+    std::uint32_t sun_rays_;  ///< of a lumel to a position of the sun
     std::size_t count_;
 };
 

@@ -15,8 +15,8 @@ namespace lumel {
 
 struct ReflectedDaylightOptions {
     std::uint32_t sky_rays = 128;  ///< of a lumel
-    /// Shadow rays of all lumels to each place of the sun, at least one each: patches of sun take
-    /// as many whatever the size of lumels.
+    /// Shadow rays of all lumels to each position of the sun, at least one each: sunlit
+    /// patches get as many whatever the size of lumels.
     std::uint32_t sun_rays = 100'000;
     std::uint32_t link_rays = 96;  ///< of a lumel
     std::uint32_t seed = 1;

@@ -23,6 +23,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/trigonometric.hpp>
+
 namespace lumel {
 namespace {
 
@@ -100,8 +102,8 @@ constexpr std::array<Efficacy, kBins> kDirectEfficacy = {{{57.20, -4.55, -2.98, 
 /// Optical air mass by F. Kasten, A. T. Young, Applied Optics 28(22), 1989.
 double air_mass(double elevation)
 {
-    return 1.0 / (std::sin(elevation) +
-                  0.50572 * std::pow(elevation * 180.0 / std::numbers::pi + 6.07995, -1.6364));
+    return 1.0 /
+           (std::sin(elevation) + 0.50572 * std::pow(glm::degrees(elevation) + 6.07995, -1.6364));
 }
 
 /// Radiation of the sun outside of the air on a plane that faces it [W/m²]: the earth's distance

@@ -16,9 +16,10 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string_view>
+
+#include <glm/trigonometric.hpp>
 
 #include "base/core/error.h"
 #include "base/core/number.h"
@@ -41,13 +42,12 @@ constexpr double kUsualDewPoint = 11.0;
 constexpr double kSecondsPerHour = 3600.0;
 constexpr int kFirstYear = 1900, kLastYear = 2100;
 constexpr int kDayHours = 24;
-constexpr double kDegree = std::numbers::pi / 180.0;
 /// Radiation above which an illuminance of 0 is a missing one [W/m²].
 constexpr double kSurelyBright = 20.0;
 /// Most that local standard time differs from the sun's: in the west of China almost 3 [h].
 constexpr double kMostHoursFromSun = 3.0;
 /// Elevation below which the sun has no direct radiation, even if it rises later in the hour [rad].
-constexpr double kNight = -5.0 * kDegree;
+constexpr double kNight = glm::radians(-5.0);
 
 /// The lines of a file, split at commas.
 class Lines {
@@ -157,8 +157,8 @@ double read_header(Lines& lines, Weather& weather)
                            "its latitude, longitude and time zone");
             weather.city = lines.column(kCity);
             const double longitude = lines.number(kLongitude, "longitude", -180.0, 180.0);  // [°]
-            weather.latitude = kDegree * lines.number(kLatitude, "latitude", -90.0, 90.0);
-            weather.longitude = kDegree * longitude;
+            weather.latitude = glm::radians(lines.number(kLatitude, "latitude", -90.0, 90.0));
+            weather.longitude = glm::radians(longitude);
             time_zone = lines.number(kTimeZone, "time zone", -14.0, 14.0);  // [h]
             check_time_zone(lines, longitude, time_zone);
         }
