@@ -46,6 +46,16 @@ void add_lamp_options(Command& command, GivenLinks& links)
     add_group_option(command, kLightmapGroup, "--per-lamp", links.groups);
 }
 
+void add_daylight_option(Command& command, BakeOptions& options)
+{
+    command.add(kLightmapGroup,
+                {{"--daylight", "FILE.epw",
+                  "Also write maps of daylight over the year of a weather file, of sky and sun "
+                  "alone: daylight-HOUR.exr and daylight.json, for the clock and the calendar of "
+                  "lumel report",
+                  &options.daylight}});
+}
+
 void add_links_options(Command& command, GivenLinks& links)
 {
     command.add(kMethodGroup,
@@ -115,6 +125,7 @@ Command bake_command()
     add_methods(command, *method);
     add_links_options(command, *links);
     add_lamp_options(command, *links);
+    add_daylight_option(command, options);
     add_stop_options(command, options.solver);
     add_resume_options(command, options);
     add_device_option(command, options.device);

@@ -9,6 +9,8 @@
 #include "../support/weather_text.h"
 #include "base/core/luminance.h"
 #include "links/trace/links.h"
+#include "results/daylight/chosen_hours.h"
+#include "results/daylight/daylight_maps.h"
 #include "results/daylight/daylight_meter.h"
 #include "scene/sky/cie_sky.h"
 #include "scene/sky/clear_sky.h"
@@ -119,6 +121,49 @@ Scene unlit_office()
     for (Material& material : office.materials)
         material.emitted = glm::vec3(0.0f);
     return office;
+}
+
+/// The office under sky and sun of an hour. lux: of the sun.
+SolveScene office_in(const Weather& weather, std::size_t hour, float lux, int size)
+{
+    Scene scene = unlit_office();
+    scene.sky = image_of_hour(weather, weather.hours[hour]);
+    if (lux > 0.0f) {
+        scene.lights.push_back(sun_light(
+            sun_position(weather.latitude, weather.longitude, weather.hours[hour].middle)));
+        scene.lights.back().intensity = lux;
+    }
+    return SolveScene(std::move(scene), {.size = size});
+}
+
+std::vector<glm::vec3> baked(const SolveScene& world, double error)
+{
+    SolverOptions options;
+    options.method = LinksOptions{};
+    options.target_error = error;
+    options.target_quality = {};
+    LinkRadiosity solver(world, LinksOptions{}, options.limits());
+    EXPECT_TRUE(solve(solver, options));
+    return solver.irradiance();
+}
+
+/// Of the year, by its number in the file.
+std::size_t hour_numbered(const DaylightYear& year, std::size_t number)
+{
+    std::size_t h = 0;
+    while (year.number(h) != number)
+        ++h;
+    return h;
+}
+
+/// Light of the maps in an hour [N].
+Estimates sum_of_maps(const DaylightMaps& maps, std::size_t hour)
+{
+    Estimates sum(maps.light.front().size(), glm::vec3(0.0f));
+    for (std::size_t k = 0; k < maps.hours.size(); ++k)
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += maps.weights[hour * maps.hours.size() + k] * maps.light[k][i];
+    return sum;
 }
 
 }  // namespace
@@ -325,24 +370,9 @@ TEST(Daylight, OfAnHourIsThatOfABakeOfTheSameHour)
         found.push_back(site.daylight().coefficients(site.point(place), 0));
     // A clear afternoon in May, when the sun shines in, a grey noon, and a clear winter's day.
     for (const std::size_t wanted : {24u * 136 + 16, 24u * 101 + 12, 24u * 350 + 13}) {
-        std::size_t h = 0;
-        while (site.year().number(h) != wanted)
-            ++h;
-        Scene scene = unlit_office();
-        scene.sky = image_of_hour(weather, weather.hours[wanted]);
-        if (site.year().sun(h).lux > 0.0f) {
-            scene.lights.push_back(sun_light(
-                sun_position(weather.latitude, weather.longitude, weather.hours[wanted].middle)));
-            scene.lights.back().intensity = site.year().sun(h).lux;
-        }
-        const SolveScene world(std::move(scene), {.size = kSize});
-        SolverOptions options;
-        options.method = LinksOptions{};
-        options.target_error = kBake;
-        options.target_quality = {};
-        LinkRadiosity solver(world, LinksOptions{}, options.limits());
-        ASSERT_TRUE(solve(solver, options));
-        const std::vector<glm::vec3> light = solver.irradiance();
+        const std::size_t h = hour_numbered(site.year(), wanted);
+        const SolveScene world = office_in(weather, wanted, site.year().sun(h).lux, kSize);
+        const std::vector<glm::vec3> light = baked(world, kBake);
         const LightMeter meter(world.scene, world.rays, world.atlas, world.lumels, light,
                                {.samples = kSamples});
         for (std::size_t p = 0; p < std::size(places); ++p) {
@@ -354,6 +384,137 @@ TEST(Daylight, OfAnHourIsThatOfABakeOfTheSameHour)
             EXPECT_NEAR(hour.lux, single.lux, 0.04 * single.lux) << wanted << ", place " << p;
             EXPECT_LT(error, 0.1 * hour.lux) << wanted << ", place " << p;
         }
+    }
+}
+
+/// Strengths of n sources in hours that are sums of a few patterns.
+std::vector<float> of_patterns(std::size_t hours, std::size_t n, std::size_t patterns)
+{
+    std::vector<float> strengths;
+    for (std::size_t h = 0; h < hours; ++h)
+        for (std::size_t k = 0; k < n; ++k) {
+            double sum = 0.0;
+            for (std::size_t p = 0; p < patterns; ++p)
+                sum += (1.0 + std::sin(double(h * (p + 1)) * 0.37)) *
+                       (1.0 + std::cos(double(k * (p + 2)) * 0.91));
+            strengths.push_back(float(sum));
+        }
+    return strengths;
+}
+
+/// As many hours as there are patterns in the year give all of its hours.
+TEST(DaylightMaps, AreAsManyAsThePatternsOfTheYear)
+{
+    constexpr std::size_t kSources = 12, kHours = 200, kPatterns = 4, kPlaces = 50;
+    const std::vector<float> strengths = of_patterns(kHours, kSources, kPatterns);
+    std::vector<float> coefficients;
+    for (std::size_t i = 0; i < kPlaces * kSources; ++i)
+        coefficients.push_back(float(1.0 + std::sin(double(i * i) * 0.13)));
+    const ChosenHours chosen = choose_hours(coefficients, strengths, kSources, 1e-3, 20);
+    EXPECT_EQ(chosen.hours.size(), kPatterns);
+    const auto light = [&](std::size_t hour, std::size_t place) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < kSources; ++k)
+            sum +=
+                double(coefficients[place * kSources + k]) * double(strengths[hour * kSources + k]);
+        return sum;
+    };
+    for (std::size_t h = 0; h < kHours; ++h)
+        for (std::size_t place = 0; place < kPlaces; ++place) {
+            double sum = 0.0;
+            for (std::size_t k = 0; k < chosen.hours.size(); ++k)
+                sum += double(chosen.weights[h * chosen.hours.size() + k]) *
+                       light(chosen.hours[k], place);
+            EXPECT_NEAR(sum, light(h, place), 0.005 * light(h, place)) << h << ", " << place;
+        }
+    // Fewer leave the error that is stated.
+    const ChosenHours fewer = choose_hours(coefficients, strengths, kSources, 1e-3, 2);
+    ASSERT_EQ(fewer.hours.size(), 2u);
+    double squares = 0.0;
+    for (std::size_t h = 0; h < kHours; ++h) {
+        double wrong = 0.0, all = 0.0;
+        for (std::size_t place = 0; place < kPlaces; ++place) {
+            const double is = light(h, place);
+            double sum = 0.0;
+            for (std::size_t k = 0; k < 2; ++k)
+                sum += double(fewer.weights[2 * h + k]) * light(fewer.hours[k], place);
+            wrong += (sum - is) * (sum - is);
+            all += is * is;
+        }
+        squares += wrong / all / double(kHours);
+    }
+    EXPECT_NEAR(fewer.error, std::sqrt(squares), 0.01 * fewer.error);
+    EXPECT_GT(fewer.error, 0.01);
+}
+
+/// Open black ground has the light of the sky, and no more.
+TEST(DaylightMaps, OfOpenGroundAreTheSky)
+{
+    const Weather weather = weather_of(weather_text([](int hour) {
+        WeatherOfHour is = mixed(hour);
+        is.direct_lux = 100.0 * is.direct;
+        is.diffuse_lux = 120.0 * is.diffuse;
+        return is;
+    }));
+    const DaylightYear year(weather, {0, 24});
+    const SolveScene open(open_place(), {.size = 16});
+    const std::optional<DaylightMaps> maps = daylight_maps(open, year, {});
+    ASSERT_TRUE(maps);
+    EXPECT_LE(maps->error, kMapsError);
+    for (std::size_t h = 0; h < year.hours(); h += 97) {
+        const double lux = weather.hours[year.number(h)].diffuse_lux;
+        // A patch has one luminance for its whole width of 12°.
+        EXPECT_NEAR(maps->mean[h], lux, 0.02 * lux) << h;
+        const Estimates sum = sum_of_maps(*maps, h);
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            EXPECT_NEAR(luminance(sum[i]), lux, 0.04 * lux) << h << ", " << i;
+    }
+}
+
+/// Surfaces that face away from the sun have only light that is in the maps.
+TEST(DaylightMaps, OfAnHourAreThatOfABakeOfTheSameHour)
+{
+    constexpr int kSize = 96;
+    constexpr double kBake = 0.02;
+    const Weather weather = weather_of(weather_text(mixed));
+    const DaylightYear year(weather, {0, 24});
+    const SolveScene office(unlit_office(), {.size = kSize});
+    const std::optional<DaylightMaps> maps = daylight_maps(office, year, {});
+    ASSERT_TRUE(maps);
+    EXPECT_LE(maps->error, kMapsError);
+    EXPECT_LE(maps->hours.size(), kMostDaylightMaps);
+    const WorldLumels lumels(office.scene, office.rays, office.lumels);
+    for (const std::size_t wanted : {24u * 136 + 16, 24u * 101 + 12, 24u * 350 + 13}) {
+        const std::size_t h = hour_numbered(year, wanted);
+        const Estimates sum = sum_of_maps(*maps, h);
+        const std::vector<glm::vec3> whole =
+            baked(office_in(weather, wanted, year.sun(h).lux, kSize), kBake);
+        ASSERT_EQ(whole.size(), sum.size());
+        double wrong = 0.0, area = 0.0, of_maps = 0.0, of_bake = 0.0, squares = 0.0,
+               whole_area = 0.0;
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            const Lumel& lumel = office.lumels.lumels[i];
+            const bool may_see_sun = glm::dot(lumels[i].normal, year.sun(h).direction) > -0.01f;
+            const double own = double(lumel.area), mapped = luminance(sum[i]);
+            if (lumel.flags & kLumelBuried)
+                continue;
+            squares += own * mapped * mapped;
+            whole_area += own;
+            if (year.sun(h).lux > 0.0f && may_see_sun)
+                continue;
+            const double is = luminance(whole[i]);
+            wrong += own * (mapped - is) * (mapped - is);
+            area += own;
+            of_maps += own * mapped;
+            of_bake += own * is;
+        }
+        ASSERT_GT(of_bake, 0.0);
+        EXPECT_NEAR(of_maps, of_bake, 0.02 * of_bake) << wanted;
+        const double stated = std::hypot(maps->errors[h], kBake);
+        EXPECT_LT(std::sqrt(wrong / area), 1.5 * stated * std::sqrt(squares / whole_area))
+            << wanted << " stated " << maps->errors[h] << " is "
+            << std::sqrt(wrong / area / squares * whole_area);
+        EXPECT_LT(stated, 0.08) << wanted;
     }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "jobs/bake/advice.h"
+#include "jobs/bake/daylight_files.h"
 #include "jobs/bake/outputs.h"
 #include "jobs/edit/kept_solution.h"
 #include "jobs/inspect/probes.h"
@@ -37,6 +38,9 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     open_libraries(options);
     Stages stages(progress);
     stages.begin("reading");
+    std::optional<WantedDaylight> wanted_daylight;
+    if (!options.daylight.empty())
+        wanted_daylight.emplace(options.daylight);
     Scene scene = read_scene(scene_path, method.materials, options.lights);
     // Checks for failures before the long work.
     output.emplace(folder);
@@ -50,6 +54,8 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     const Setting setting(std::move(scene), &device, options, stages);
     if (options.probe_spacing > 0.0)
         check_probe_spacing(options.probe_spacing, setting.prepared);
+    if (wanted_daylight)
+        wanted_daylight->check_memory(setting.prepared.lumels.lumels.size());
     options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =
@@ -76,6 +82,11 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     if (!per_lamp && keeps_lamps_apart(options))
         stages.tell("the bake was stopped before the maps of lamps were made; --resume makes them");
 
+    std::optional<DaylightMaps> daylight;
+    if (wanted_daylight)
+        daylight = make_daylight_maps(*wanted_daylight, setting.prepared,
+                                      std::uint32_t(seed_of(options.solver.method)), stages);
+
     const bool stopped = stages.stopped();
     // Without light there is no error.
     const bool lit = is_lit(solution->irradiance);
@@ -97,7 +108,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
                           .per_lamp = per_lamp};
     output->outdate(kMatrixFile);
     output->outdate(kLinksFile);
-    outdate_lamps(*output, folder);
+    outdate_apart(*output, folder);
     if (!stopped)
         output->outdate(kCheckpointFile);
     if (solution->relightable)
@@ -105,8 +116,12 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     if (options.keep_links)
         write_links(output->path(kLinksFile), dynamic_cast<const LinkRadiosity&>(*solution->solver)
                                                   .kept(setting.prepared.scene.hash));
+    std::vector<std::string> more_files;
+    if (daylight)
+        more_files =
+            write_daylight(*output, options, setting.prepared, *wanted_daylight, *daylight, stages);
     return write_bake(*output, options, setting.prepared, device, *solution->solver,
-                      solution->irradiance, results, stages);
+                      solution->irradiance, results, more_files, stages);
 }
 
 }  // namespace

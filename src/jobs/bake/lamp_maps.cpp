@@ -17,7 +17,6 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kLampPrefix = "lamp-";
 /// Maximum length of a lamp's name in a file name [bytes].
 constexpr std::size_t kLongestName = 100;
 constexpr std::size_t kTexelsPerTask = 4096;
@@ -208,7 +207,7 @@ WrittenLamps write_lamps(const OutputFolder& folder, const BakeOptions& options,
     return written;
 }
 
-void outdate_lamps(OutputFolder& folder, const std::string& target)
+void outdate_apart(OutputFolder& folder, const std::string& target)
 {
     std::vector<std::string> files;
     try {
@@ -217,8 +216,12 @@ void outdate_lamps(OutputFolder& folder, const std::string& target)
     } catch (const std::exception&) {
         return;  // no bake, or none whose files are known
     }
+    const auto is_map = [](const std::string& file) {
+        return file.ends_with(".exr") &&
+               (file.starts_with(kLampPrefix) || file.starts_with(kDaylightPrefix));
+    };
     for (const std::string& file : files)
-        if (file == kLampsFile || (file.starts_with(kLampPrefix) && file.ends_with(".exr")))
+        if (file == kLampsFile || file == kDaylightFile || is_map(file))
             folder.outdate(file);
 }
 

@@ -54,8 +54,8 @@ WrittenLamps write_lamps(const OutputFolder& folder, const BakeOptions& options,
                          const SolveScene& prepared, std::span<const glm::vec3> irradiance,
                          const LampLights& lamps, Stages& stages);
 
-/// Removes lamps.json and the maps of lamps of an earlier bake from the folder `target`: those that
-/// its report lists.
-void outdate_lamps(OutputFolder& folder, const std::string& target);
+/// Removes lamps.json, daylight.json and their maps of an earlier bake from the folder `target`:
+/// those that its report lists.
+void outdate_apart(OutputFolder& folder, const std::string& target);
 
 }  // namespace lumel

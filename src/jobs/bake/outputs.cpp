@@ -178,7 +178,7 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
 BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const SolveScene& prepared,
                        const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,
-                       Stages& stages)
+                       const std::vector<std::string>& more, Stages& stages)
 {
     WrittenLamps lamps;
     if (results.per_lamp)
@@ -196,6 +196,7 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const S
     outdate_other_pages(folder, prepared.atlas.pages);
     BakeRecord record = record_of(options, prepared, results, written);
     record.files.insert(record.files.end(), lamps.files.begin(), lamps.files.end());
+    record.files.insert(record.files.end(), more.begin(), more.end());
     Report facts = bake_report(record, prepared, device, solver, results, stages);
     facts.preview = preview_row(written, prepared.scene);
     const Json report = to_json(facts);

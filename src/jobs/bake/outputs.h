@@ -66,11 +66,12 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
                          const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages,
                          std::span<const SceneLamp> lamps = {});
 
-/// Writes all files of `lumel bake`; the caller commits them. irradiance [N] [lx].
+/// Writes all files of `lumel bake` but `more`, which the report lists too; the caller commits
+/// them. irradiance [N] [lx].
 BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const SolveScene& prepared,
                        const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,
-                       Stages& stages);
+                       const std::vector<std::string>& more, Stages& stages);
 
 /// Writes all files of `lumel reference`.
 BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,

@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include <fmt/format.h>
-#include <glm/trigonometric.hpp>
 
 #include "base/core/files.h"
 #include "base/core/parallel.h"
@@ -14,6 +13,7 @@
 #include "jobs/edit/finished_bake.h"
 #include "jobs/inspect/measure_picture.h"
 #include "jobs/solve/stages.h"
+#include "results/daylight/weather_notes.h"
 #include "results/files/folder.h"
 
 namespace lumel {
@@ -79,30 +79,6 @@ std::size_t hour_of(const Weather& weather, const DaylightYear& year, const Hour
                             wanted.month, wanted.day, wanted.begins));
 }
 
-/// Says what the weather file has.
-void add_notes(const Weather& weather, const DaylightYear& year, const OccupiedHours& occupied,
-               std::vector<std::string>& notes)
-{
-    std::size_t by_file = 0, by_efficacy = 0;
-    for (std::size_t h = 0; h < year.hours(); ++h)
-        if (const WeatherHour& hour = weather.hours[year.number(h)]; has_light(hour))
-            ++(hour.has_illuminance ? by_file : by_efficacy);
-    notes.push_back(fmt::format(
-        "weather of {} ({:.2f}° N, {:.2f}° E): {} hours from {} to {} o'clock; {} with the "
-        "illuminance of the file, {} with luminous efficacy by Perez et al. 1990, {} dark",
-        weather.city, glm::degrees(weather.latitude), glm::degrees(weather.longitude), year.hours(),
-        occupied.from, occupied.to, by_file, by_efficacy, year.hours() - by_file - by_efficacy));
-    if (weather.missing > 0)
-        notes.push_back(
-            fmt::format("{} hours of the weather file have no radiation values and count as dark",
-                        weather.missing));
-    if (weather.at_night > 0)
-        notes.push_back(fmt::format(
-            "{} hours of the weather file have direct radiation while the sun is more than 5° "
-            "below the horizon: check its place and its time zone",
-            weather.at_night));
-}
-
 /// The hours of a year, and what the lumels of a bake reflect in them.
 struct Daylight {
     DaylightYear year;
@@ -127,7 +103,8 @@ Daylight find_daylight(const FinishedBake& bake, const Weather& weather,
     stages.note(fmt::format("{} patches of the sky, {} positions of the sun", SkyPatches().count(),
                             year.sun_places().size()));
     stages.begin("daylight");
-    ReflectedDaylight reflected(bake.prepared, year.sun_places(), {.seed = seed_in(bake)},
+    ReflectedDaylight reflected(bake.prepared, year.sun_places(),
+                                {.seed = seed_in(bake), .asked_by = "--weather"},
                                 [&](double part) { return stages.progress(part); });
     if (!reflected.is_complete())
         throw_stopped();
@@ -159,7 +136,8 @@ void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather&
                     .hours = daylight.year.hours(),
                     .target = options.target,
                     .figures = figures_of(readings)};
-    add_notes(weather, daylight.year, options.occupied, summary.notes);
+    for (std::string& note : weather_notes(weather, daylight.year, options.occupied))
+        summary.notes.push_back(std::move(note));
 }
 
 /// Illuminance of an open plane, if the overcast sky is the only light.
@@ -325,7 +303,7 @@ void write_csv(const std::string& path, const MeasureSummary& summary)
     output.commit();
 }
 
-void write_picture(const std::string& path, const Image& picture)
+void write_drawn(const std::string& path, const Image& picture)
 {
     OutputFile output(path);
     write_png(output.path(), picture);
@@ -337,7 +315,7 @@ void write_preview(const FinishedBake& bake, const MeasureOptions& options)
     const gpu::Device device(options.device);
     const Image picture = preview_picture(device, bake.prepared, bake.irradiance, options.width);
     device.check_validation();
-    write_picture(options.preview, picture);
+    write_drawn(options.preview, picture);
 }
 
 }  // namespace
@@ -396,7 +374,7 @@ MeasureSummary measure(const std::string& folder, const MeasureOptions& options,
     if (!options.table.empty())
         write_csv(options.table, summary);
     if (!options.picture.empty())
-        write_picture(options.picture, plane_picture(grid, readings));
+        write_drawn(options.picture, plane_picture(grid, readings));
     if (!options.preview.empty())
         write_preview(bake, options);
     stages.end();

@@ -33,6 +33,7 @@ struct BakeOptions {
     int preview_width = 1280;                     ///< [pixels], 0: no preview
     float exposure = 0.0f;       ///< of preview and other images for display [m²/cd]; 0: fitted
     double probe_spacing = 0.0;  ///< spacing of a grid of light probes [m]; 0: none
+    std::string daylight;        ///< weather file, for maps of daylight over a year; empty: none
     bool keep_links = false;     ///< stores the links for later runs
     std::string dump;            ///< folder for intermediate images, see dump.h; empty: none
     bool resume = false;         ///< continues from a checkpoint, if there is one

@@ -52,7 +52,7 @@ bool keeps_sources_apart(const BakeOptions& options)
 
 void open_libraries(const BakeOptions& options)
 {
-    if (std::holds_alternative<MatrixOptions>(options.solver.method))
+    if (std::holds_alternative<MatrixOptions>(options.solver.method) || !options.daylight.empty())
         blas::open();
 }
 

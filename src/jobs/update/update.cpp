@@ -210,7 +210,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
                                 .preview_width = options.preview_width,
                                 .exposure = baked.given_exposure};
         output.outdate(kMatrixFile);
-        outdate_lamps(output, folder);
+        outdate_apart(output, folder);
         written = write_light(output, files, edit.now, device ? &*device : nullptr,
                               light.irradiance, light.error, {}, stages);
     }

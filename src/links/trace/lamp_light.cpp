@@ -169,6 +169,34 @@ std::vector<glm::vec3> LinkRadiosity::reflected(std::span<const glm::vec3> direc
     return mean;
 }
 
+double LinkRadiosity::filter_outside(const OutsideLight& whole, std::span<Estimates> direct,
+                                     std::span<Estimates> reflected)
+{
+    const std::size_t count = work_.lumels().size();
+    std::vector<glm::vec3> lanes(count * kLampLanes, glm::vec3(0.0f));
+    for (std::size_t i = 0; i < count; ++i)
+        lanes[i * kLampLanes] = whole.sent[i];
+    const LampSolutions found = solve_lamps(OutsideReflected(work_, *parts_, *numbers_, lanes));
+    Solutions solutions;
+    for (std::size_t k = 0; k < kSolutions; ++k)
+        for (std::size_t i = 0; i < count; ++i)
+            solutions[k].push_back(found.light[k][i * kLampLanes]);
+    filter()->indirect_parts(solutions, reflected);
+    filter()->direct_parts(whole.one, whole.other, direct);
+    const Mean of_links = filter()->indirect(solutions),
+               of_sky = filter()->direct(whole.one, whole.other);
+    SquaredError by_links, by_sky;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+        if (!work_.is_buried(i)) {
+            const glm::vec3 light = of_links.light[i] + of_sky.light[i];
+            by_links.add(of_links, i);
+            by_sky.add(of_sky, i);
+            squares += double(glm::dot(light, light));
+        }
+    return squares > 0.0 ? std::sqrt((by_links.sum() + by_sky.sum()) / squares) : 0.0;
+}
+
 /// Scales the lamps of each lumel so that they add up to its light: their sweeps end at a residual,
 /// and no light is negative. Light without a lamp goes to the brightest lamp of the
 /// previous lumel. Returns LampsLight::missing.

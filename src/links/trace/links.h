@@ -109,6 +109,16 @@ public:
     /// After the last step: light of kLampLanes sources that are not in the scene, after one bounce
     /// and more [N][kLampLanes] [lx], by their direct light at each lumel [N][kLampLanes] [lx].
     std::vector<glm::vec3> reflected(std::span<const glm::vec3> direct) const;
+    /// Light of sources that are not in the scene, for filter_outside() [N].
+    struct OutsideLight {
+        Estimates one, other;  ///< independent estimates of the direct light that is filtered
+        Estimates sent;        ///< direct light whose reflections are filtered
+    };
+    /// After the last step, with LinksOptions::filter: filters maps of the direct and the reflected
+    /// light of such sources in place, with the gains of `whole`, so that sums of maps stay sums.
+    /// Returns the estimated error of `whole` as filtered, relative to its RMS light.
+    double filter_outside(const OutsideLight& whole, std::span<Estimates> direct,
+                          std::span<Estimates> reflected);
     /// Links to store for a later run, after a round has ended. hash: Scene::hash.
     StoredLinks kept(const std::string& hash) const;
     /// Rays that lumels have sent, without the known ones.

@@ -17,20 +17,13 @@
 #include "base/core/luminance.h"
 #include "base/core/pi.h"
 #include "base/core/sphere.h"
+#include "results/daylight/dot.h"
 #include "results/measure/ray_sets.h"
 #include "scene/sky/cie_sky.h"
 #include "scene/sky/clear_sky.h"
 
 namespace lumel {
 namespace {
-
-double product(std::span<const float> a, std::span<const float> b)
-{
-    double sum = 0.0;
-    for (std::size_t k = 0; k < a.size(); ++k)
-        sum += double(a[k]) * double(b[k]);
-    return sum;
-}
 
 /// Standard error of the mean of `of` each set.
 template <class Of>
@@ -180,7 +173,7 @@ DaylightReading DaylightMeter::read(const MeterPoint& point, std::uint32_t numbe
     if (found.inside)
         return reading;
     const auto factor = [&](std::span<const float> coefficients) {
-        return product(coefficients.first(patches_), overcast_);
+        return dot(coefficients.first(patches_), overcast_);
     };
     reading.factor = factor(found.mean);
     reading.factor_noise = noise_of([&](std::size_t set) { return factor(found.of_sets[set]); });

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "results/daylight/daylight_year.h"
 #include "results/daylight/reflected_daylight.h"
 #include "results/measure/light_meter.h"
 

@@ -100,6 +100,29 @@ void DaylightYear::add_sky(const WeatherHour& hour, const Weather& weather, std:
             float(hour.has_illuminance ? hour.direct_lux : hour.direct * sky.direct_efficacy());
 }
 
+double DaylightYear::open_ground(std::size_t hour) const
+{
+    double lux = double(suns_[hour].lux * suns_[hour].direction.y);
+    for (std::size_t patch = 0; patch < patches_.count(); ++patch)
+        lux += patches_.projected(patch) * double(luminance(patch)[hour]);
+    return lux;
+}
+
+std::vector<float> DaylightYear::strengths(std::size_t hour, Sun::Grid grid) const
+{
+    const SkyPatches whole;
+    std::vector<float> strengths(whole.count() + places_.size(), 0.0f);
+    for (std::size_t patch = 0; patch < patches_.count(); ++patch) {
+        const std::uint32_t own = patches_.whole(patch);
+        strengths[own] +=
+            float(patches_.solid_angle(patch) / whole.solid_angle(own)) * luminance(patch)[hour];
+    }
+    for (const Sun::Share& share : suns_[hour].*grid)
+        if (suns_[hour].lux > 0.0f)
+            strengths[whole.count() + share.place] += share.weight * suns_[hour].lux;
+    return strengths;
+}
+
 void DaylightYear::place_suns(double latitude)
 {
     const Celestial celestial(latitude);

@@ -26,6 +26,8 @@ public:
     /// Index of an hour in Weather::hours.
     std::size_t number(std::size_t hour) const { return numbers_[hour]; }
 
+    /// Illuminance of open ground in an hour by sky and sun [lx].
+    double open_ground(std::size_t hour) const;
     const SkyPatches& patches() const { return patches_; }
     /// Luminance of a patch in all hours [hours()] [cd/m²].
     std::span<const float> luminance(std::size_t patch) const
@@ -44,8 +46,14 @@ public:
         std::array<Share, 4> near{};
         /// Of a grid twice as wide, for the error of interpolation.
         std::array<Share, 4> wide{};
+
+        using Grid = std::array<Share, 4> Sun::*;
     };
     const Sun& sun(std::size_t hour) const { return suns_[hour]; }
+    /// Strengths in an hour of the sources of DaylightTransport: mean luminance of each of the 145
+    /// patches of [Tre87] [cd/m²], then illuminance by the sun at each of its places [lx].
+    /// grid: of the sun, near or wide.
+    std::vector<float> strengths(std::size_t hour, Sun::Grid grid) const;
     /// Unit directions to the positions between which the sun is interpolated.
     std::span<const glm::vec3> sun_places() const { return places_; }
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/images/image_files.h"
+#include "base/json/json_file.h"
 #include "results/files/root_node.h"
 
 namespace lumel {

@@ -7,6 +7,7 @@
 
 #include "atlas/near/world_lumels.h"
 #include "atlas/packing/atlas.h"
+#include "atlas/prepare/solve_scene.h"
 #include "base/core/image.h"
 #include "methods/glossy/eye_image.h"
 #include "results/picture/seen.h"

@@ -21,7 +21,9 @@ namespace lumel {
 /// Files of a finished bake that are read again.
 inline constexpr const char *kReportFile = "report.json", *kSceneFile = "scene.glb",
                             *kSolutionFile = "solution.exr", *kPreview = "preview.png",
-                            *kLampsFile = "lamps.json";
+                            *kLampsFile = "lamps.json", *kDaylightFile = "daylight.json";
+/// Beginnings of the names of maps of single lamps, and of hours of daylight.
+inline constexpr const char *kLampPrefix = "lamp-", *kDaylightPrefix = "daylight-";
 /// Layer of solution.exr, see write_solution().
 inline constexpr const char* kErrorLayer = "error";
 /// Output of lumel report and lumel probes, outdated by a new bake.

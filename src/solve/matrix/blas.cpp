@@ -1,5 +1,5 @@
 // OpenBLAS is opened when it is needed: it and its dependencies have 40 MB, and only method
-// "matrix" uses it.
+// "matrix" and maps of daylight use it.
 
 #include "solve/matrix/blas.h"
 
@@ -30,7 +30,7 @@ void* open_library()
     void* const library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
     if (!library)
         throw Error(ErrorKind::input, kLibrary,
-                    std::string("cannot be loaded, but the matrix needs OpenBLAS (Debian package "
+                    std::string("cannot be loaded, but this needs OpenBLAS (Debian package "
                                 "libopenblas0-pthread): ") +
                         dlerror());
     return library;

@@ -1,0 +1,43 @@
+#pragma once
+// Maps of daylight over a year: bake --daylight.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "atlas/prepare/solve_scene.h"
+#include "jobs/solve/bake_options.h"
+#include "jobs/solve/stages.h"
+#include "results/daylight/daylight_maps.h"
+#include "results/files/folder.h"
+#include "scene/sky/weather_file.h"
+
+namespace lumel {
+
+/// Daylight that --daylight asks for, before the long work of a bake.
+class WantedDaylight {
+public:
+    /// Throws Error{input} with what is wrong with the weather file.
+    explicit WantedDaylight(const std::string& weather_file);
+
+    const Weather& weather() const { return weather_; }
+    const DaylightYear& year() const { return year_; }
+    /// Throws Error{input} if the maps of so many lumels do not fit in memory.
+    void check_memory(std::size_t lumels) const;
+
+private:
+    Weather weather_;
+    DaylightYear year_;
+};
+
+/// The maps, in a stage of its own; empty if the caller stopped, and if there is no light.
+std::optional<DaylightMaps> make_daylight_maps(const WantedDaylight& wanted,
+                                               const SolveScene& prepared, std::uint32_t seed,
+                                               Stages& stages);
+
+/// Writes the maps and daylight.json. Returns the files' names.
+std::vector<std::string> write_daylight(const OutputFolder& folder, const BakeOptions& options,
+                                        const SolveScene& prepared, const WantedDaylight& wanted,
+                                        const DaylightMaps& maps, Stages& stages);
+
+}  // namespace lumel

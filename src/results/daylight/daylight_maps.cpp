@@ -1,0 +1,163 @@
+// 1. DaylightTransport finds coefficients of 145 patches and of positions of the sun, of low noise
+//    in the mean of squares of charts.
+// 2. These, times the strengths of hours, decide on the hours.
+// 3. Their maps are solved for on their own, with the sun where it is.
+
+#include "results/daylight/daylight_maps.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "base/core/luminance.h"
+#include "results/daylight/chosen_hours.h"
+#include "results/daylight/light_of_hours.h"
+#include "scene/sky/sky_patches.h"
+
+namespace lumel {
+namespace {
+
+/// Side of the squares [texels]: fine noise is not in their means.
+constexpr std::uint32_t kSquare = 8;
+/// Part of the difference from a grid of the sun twice as wide that is the error of this: errors of
+/// linear interpolation are as the square of the step.
+constexpr double kOfWideError = 1.0 / 3.0;
+/// Shares of the work, for the progress bar only.
+constexpr double kTraced = 0.3, kReflected = 0.5;
+
+/// [hours][sources] What the sources send; grid: of the sun.
+std::vector<float> strengths_of(const DaylightYear& year, DaylightYear::Sun::Grid grid)
+{
+    std::vector<float> strengths;
+    for (std::size_t h = 0; h < year.hours(); ++h) {
+        const std::vector<float> own = year.strengths(h, grid);
+        strengths.insert(strengths.end(), own.begin(), own.end());
+    }
+    return strengths;
+}
+
+/// Sums of coefficients over the lumels of squares, by area.
+class Squares {
+public:
+    Squares(const SolveScene& scene, std::size_t count) : scene_(scene), count_(count)
+    {
+        std::map<std::array<std::uint32_t, 4>, std::size_t> numbers;
+        const std::uint32_t width = scene.lumels.width;
+        for (const Lumel& lumel : scene.lumels.lumels) {
+            const bool is_open = !(lumel.flags & kLumelBuried);
+            of_lumel_.push_back(is_open ? numbers
+                                              .try_emplace({lumel.chart, lumel.flags & kLumelBack,
+                                                            lumel.texel % width / kSquare,
+                                                            lumel.texel / width / kSquare},
+                                                           numbers.size())
+                                              .first->second
+                                        : kNone);
+        }
+        sums_.resize(numbers.size() * count, glm::dvec3(0.0));
+        areas_.resize(numbers.size(), 0.0);
+        for (std::size_t i = 0; i < of_lumel_.size(); ++i)
+            if (of_lumel_[i] != kNone)
+                areas_[of_lumel_[i]] += double(scene.lumels.lumels[i].area);
+    }
+
+    /// Adds the first `some` coefficients of each lumel.
+    void add(const DaylightTransport& light, std::size_t some)
+    {
+        for (std::size_t i = 0; i < of_lumel_.size(); ++i)
+            for (std::size_t k = 0; of_lumel_[i] != kNone && k < some; ++k) {
+                const glm::dvec3 own =
+                    double(scene_.lumels.lumels[i].area) * glm::dvec3(light.of(i)[k]);
+                sums_[of_lumel_[i] * count_ + k] += own;
+            }
+    }
+
+    /// [3 squares][count] Means by the root of the area.
+    std::vector<float> coefficients() const
+    {
+        std::vector<float> found;
+        for (std::size_t square = 0; square < areas_.size(); ++square)
+            for (int c = 0; c < 3; ++c)
+                for (std::size_t k = 0; k < count_; ++k)
+                    found.push_back(areas_[square] > 0.0 ? float(sums_[square * count_ + k][c] /
+                                                                 std::sqrt(areas_[square]))
+                                                         : 0.0f);
+        return found;
+    }
+
+private:
+    static constexpr std::size_t kNone = ~std::size_t(0);
+
+    const SolveScene& scene_;
+    std::vector<std::size_t> of_lumel_;  ///< [N]
+    std::vector<glm::dvec3> sums_;       ///< [squares][count]
+    std::vector<double> areas_;          ///< [squares]
+    std::size_t count_;
+};
+
+/// Mean over the area of all surfaces [lx].
+double mean_of(const SolveScene& scene, const Estimates& light)
+{
+    double sum = 0.0, area = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i)
+        if (const Lumel& lumel = scene.lumels.lumels[i]; !(lumel.flags & kLumelBuried)) {
+            sum += double(lumel.area) * luminance(light[i]);
+            area += double(lumel.area);
+        }
+    return area > 0.0 ? sum / area : 0.0;
+}
+
+}  // namespace
+
+std::optional<DaylightMaps> daylight_maps(const SolveScene& scene, const DaylightYear& year,
+                                          const DaylightTransportOptions& options,
+                                          const std::function<bool(double)>& progress)
+{
+    const auto part = [&](double from, double to) {
+        return [&progress, from, to](double done) {
+            return !progress || progress(from + (to - from) * done);
+        };
+    };
+    std::optional<DaylightTransport> transport(std::in_place, scene, year.sun_places(), options,
+                                               part(0.0, kTraced));
+    if (!transport->is_complete())
+        return std::nullopt;
+    const std::size_t count = transport->count();
+    Squares squares(scene, count);
+    squares.add(*transport, SkyPatches().count());
+    transport->reflect(
+        [](std::size_t, const glm::vec3&, const glm::vec3& reflected) { return reflected; },
+        part(kTraced, kReflected));
+    if (!transport->is_complete())
+        return std::nullopt;
+    squares.add(*transport, count);
+    transport.reset();
+
+    const std::vector<float> coefficients = squares.coefficients();
+    const std::vector<float> strengths = strengths_of(year, &DaylightYear::Sun::near);
+    ChosenHours chosen =
+        choose_hours(coefficients, strengths, std::uint32_t(count), kMapsError, kMostDaylightMaps);
+    const std::vector<double> by_places =
+        apart(coefficients, strengths, strengths_of(year, &DaylightYear::Sun::wide),
+              std::uint32_t(count));
+    std::optional<LightOfHours> light =
+        light_of_hours(scene, year, chosen.hours, options.seed, part(kReflected, 1.0));
+    if (!light)
+        return std::nullopt;
+
+    DaylightMaps maps{.hours = std::move(chosen.hours),
+                      .light = std::move(light->light),
+                      .weights = std::move(chosen.weights),
+                      .mean = std::vector<double>(year.hours(), 0.0),
+                      .error = chosen.error,
+                      .errors = std::move(chosen.errors)};
+    for (std::size_t h = 0; h < year.hours(); ++h)
+        maps.errors[h] = std::hypot(maps.errors[h], kOfWideError * by_places[h], light->noise);
+    for (std::size_t m = 0; m < maps.hours.size(); ++m) {
+        const double mean = mean_of(scene, maps.light[m]);
+        for (std::size_t h = 0; h < year.hours(); ++h)
+            maps.mean[h] += mean * double(maps.weights[h * maps.hours.size() + m]);
+    }
+    return maps;
+}
+
+}  // namespace lumel

@@ -1,0 +1,38 @@
+#pragma once
+// Maps of the daylight of a few hours, of which the light of all hours of a year is a sum.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "atlas/prepare/solve_scene.h"
+#include "links/direct/solutions.h"
+#include "results/daylight/daylight_transport.h"
+#include "results/daylight/daylight_year.h"
+
+namespace lumel {
+
+/// Error of the sums, relative to the light of the hour; see ChosenHours.
+inline constexpr double kMapsError = 0.01;
+inline constexpr std::size_t kMostDaylightMaps = 48;
+
+/// Light of the sky, and of the sun after one reflection and more: its direct light has
+/// edges that move with it, which no sum of a few maps has.
+struct DaylightMaps {
+    std::vector<std::size_t> hours;  ///< [K] of the year: those of the maps
+    std::vector<Estimates> light;    ///< [K][N] irradiance [lx]
+    std::vector<float> weights;      ///< [hours of the year][K], of any sign
+    std::vector<double> mean;        ///< [hours of the year] mean over all surfaces [lx]
+    double error = 0.0;              ///< that is due to the number of maps, as in ChosenHours
+    /// [hours of the year] Estimated error by that, by the positions of the sun and by rays,
+    /// relative to the hour's RMS light.
+    std::vector<double> errors;
+};
+
+/// Empty if progress, 0…1, returns false. Throws Error{input} if it does not fit in memory, and
+/// without OpenBLAS.
+std::optional<DaylightMaps> daylight_maps(const SolveScene& scene, const DaylightYear& year,
+                                          const DaylightTransportOptions& options,
+                                          const std::function<bool(double)>& progress = {});
+
+}  // namespace lumel

@@ -1,0 +1,154 @@
+// Direct light of sky and sun by rays (sky_rays.h), reflected light by links, kLampLanes hours at
+// once. The filter has the gains of a typical hour: their sum, each relative to its light on open
+// ground.
+
+#include "results/daylight/light_of_hours.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/core/parallel.h"
+#include "links/trace/links.h"
+#include "results/daylight/sky_rays.h"
+#include "scene/sky/sky_patches.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::size_t kMappedPerStep = 2048, kMappedPerTask = 64;
+/// Rays of a lumel to the sky, to each sun, and of its links.
+constexpr std::uint32_t kToSky = 512, kToSun = 16, kOfLinks = 384;
+/// Shares of the work, for the progress bar only.
+constexpr double kSkyPart = 0.4, kTracedPart = 0.6;
+
+/// Direct light [lx].
+struct DirectLight {
+    std::vector<Estimates> sky, sun;  ///< [hours][N]
+    std::array<Estimates, 2> halves;  ///< [N] of the sky in a typical hour, by half of the rays
+};
+
+/// Traces it.
+class DirectRays {
+public:
+    DirectRays(const SolveScene& scene, const DaylightYear& year,
+               std::span<const std::size_t> hours, std::uint32_t seed)
+        : year_(year),
+          hours_(hours),
+          rays_(scene, kToSky, seed)
+    {
+        for (const std::size_t hour : hours)
+            shares_.push_back(float(1.0 / year.open_ground(hour)));
+        for (std::size_t k = 0; k < year.patches().count(); ++k) {
+            float typical = 0.0f;
+            for (std::size_t m = 0; m < hours.size(); ++m) {
+                luminance_.push_back(year.luminance(k)[hours[m]]);
+                typical += shares_[m] * luminance_.back();
+            }
+            typical_.push_back(typical);
+        }
+    }
+
+    /// Of each hour in a typical one.
+    float share(std::size_t hour) const { return shares_[hour]; }
+
+    void find(std::size_t lumel, DirectLight& light) const
+    {
+        rays_.visit(lumel,
+                    [&](std::uint32_t k, const glm::vec3& direction, const glm::vec3& found) {
+                        const std::uint32_t patch = year_.patches().at(direction);
+                        if (patch == SkyPatches::kNone)
+                            return;
+                        light.halves[2 * k / kToSky][lumel] += 2.0f * typical_[patch] * found;
+                        for (std::size_t m = 0; m < hours_.size(); ++m)
+                            light.sky[m][lumel] += luminance_[patch * hours_.size() + m] * found;
+                    });
+        for (std::size_t m = 0; m < hours_.size(); ++m)
+            if (const DaylightYear::Sun& sun = year_.sun(hours_[m]); sun.lux > 0.0f)
+                light.sun[m][lumel] =
+                    sun.lux * rays_.sun(lumel, sun.direction, std::uint32_t(hours_[m]), kToSun);
+    }
+
+private:
+    const DaylightYear& year_;
+    std::span<const std::size_t> hours_;
+    SkyRays rays_;
+    std::vector<float> shares_;     ///< [hours]
+    std::vector<float> luminance_;  ///< [patches][hours]
+    std::vector<float> typical_;    ///< [patches]
+};
+
+/// Empty if progress returns false.
+std::optional<DirectLight> trace(const SolveScene& scene, const DirectRays& rays, std::size_t hours,
+                                 const std::function<bool(double)>& progress)
+{
+    const std::size_t lumels = scene.lumels.lumels.size();
+    const Estimates none(lumels, glm::vec3(0.0f));
+    DirectLight light{
+        std::vector<Estimates>(hours, none), std::vector<Estimates>(hours, none), {none, none}};
+    const bool done = parallel_steps(
+        lumels, kMappedPerStep, kMappedPerTask,
+        [&](std::size_t from, std::size_t to) {
+            for (std::size_t i = from; i < to; ++i)
+                if (!(scene.lumels.lumels[i].flags & kLumelBuried))
+                    rays.find(i, light);
+        },
+        [&](std::size_t count) { return progress(double(count) / double(lumels)); });
+    return done ? std::optional(std::move(light)) : std::nullopt;
+}
+
+/// Replaces light of the sun by reflected light of sky and sun.
+void reflect(const LinkRadiosity& links, std::size_t first, DirectLight& light)
+{
+    const std::size_t lumels = light.sky.front().size();
+    const std::size_t width = std::min(kLampLanes, light.sky.size() - first);
+    std::vector<glm::vec3> lanes(lumels * kLampLanes, glm::vec3(0.0f));
+    for (std::size_t lane = 0; lane < width; ++lane)
+        for (std::size_t i = 0; i < lumels; ++i)
+            lanes[i * kLampLanes + lane] = light.sky[first + lane][i] + light.sun[first + lane][i];
+    const std::vector<glm::vec3> reflected = links.reflected(lanes);
+    for (std::size_t lane = 0; lane < width; ++lane)
+        for (std::size_t i = 0; i < lumels; ++i)
+            light.sun[first + lane][i] = reflected[i * kLampLanes + lane];
+}
+
+}  // namespace
+
+std::optional<LightOfHours> light_of_hours(const SolveScene& scene, const DaylightYear& year,
+                                           std::span<const std::size_t> hours, std::uint32_t seed,
+                                           const std::function<bool(double)>& progress)
+{
+    const std::size_t lumels = scene.lumels.lumels.size();
+    const DirectRays rays(scene, year, hours, seed);
+    std::optional<DirectLight> light =
+        trace(scene, rays, hours.size(), [&](double done) { return progress(kSkyPart * done); });
+    if (!light)
+        return std::nullopt;
+    LinkRadiosity links(
+        scene, LinksOptions{.seed = seed, .even_rays = kOfLinks, .outside_light = true}, {});
+    while (!links.state().ended) {
+        if (!progress(kSkyPart))
+            return std::nullopt;
+        links.step();
+    }
+    Estimates sent(lumels, glm::vec3(0.0f));
+    for (std::size_t m = 0; m < hours.size(); ++m)
+        for (std::size_t i = 0; i < lumels; ++i)
+            sent[i] += rays.share(m) * (light->sky[m][i] + light->sun[m][i]);
+    for (std::size_t first = 0; first < hours.size(); first += kLampLanes) {
+        if (!progress(kTracedPart + (1.0 - kTracedPart) * double(first) / double(hours.size())))
+            return std::nullopt;
+        reflect(links, first, *light);
+    }
+    LightOfHours found;
+    found.noise = links.filter_outside(
+        {std::move(light->halves[0]), std::move(light->halves[1]), std::move(sent)}, light->sky,
+        light->sun);
+    found.light = std::move(light->sky);
+    for (std::size_t m = 0; m < hours.size(); ++m)
+        for (std::size_t i = 0; i < lumels; ++i)
+            found.light[m][i] =
+                glm::max(found.light[m][i], 0.0f) + glm::max(light->sun[m][i], 0.0f);
+    return found;
+}
+
+}  // namespace lumel
