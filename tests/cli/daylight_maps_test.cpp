@@ -34,7 +34,7 @@ std::vector<std::string> bake_of(const std::string& scene, const std::string& fo
                                  const std::vector<std::string>& more = {})
 {
     std::vector<std::string> arguments = {
-        "bake", own_scene(scene),  folder, "--size", "48", "--links",
+        "bake", own_scene(scene),  folder, "--size", "64", "--links",
         "12",   "--preview-width", "0",    "-q"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
@@ -69,7 +69,7 @@ TEST(DaylightFiles, HaveWeightsOfTheirMapsForEachHourWithLight)
         named.insert(map["map"].get<std::string>());
         EXPECT_NE(std::find(files.begin(), files.end(), map["map"]), files.end());
         const Image light = read_exr(out + "/" + map["map"].get<std::string>());
-        EXPECT_EQ(light.width, 48);
+        EXPECT_EQ(light.width, 64);
         EXPECT_GE(*std::min_element(light.values.begin(), light.values.end()), 0.0f);
         EXPECT_GT(*std::max_element(light.values.begin(), light.values.end()), 10.0f);
     }
