@@ -11,28 +11,28 @@
 // not 0, and each texel keeps its own b instead of the window's mean.
 //
 // H is linear in the lamps. So while one lamp is dimmed, its light and that of all others stay as they are, at full
-// size, and only their sum is made again.
+// size, and only their sum is made again. Factors may be negative, as those of maps of daylight are; light is not.
 
 import * as THREE from 'three';
 import { FullScreenQuad } from 'three/addons/postprocessing/Pass.js';
 import { halfMap } from './half_map.js';
 
-const mostLamps = 64; // as in src/lights/lamps.h
+const places = 64; // of factors in the shader: lamps, as in src/lights/lamps.h; daylight may need more
 const largest = 65504; // half float
 
 const vertexShader = 'in vec3 position; void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }';
 const head = `precision highp float; precision highp sampler2D; precision highp sampler2DArray;
 layout(location = 0) out vec4 made;`;
 
-const sumOfLamps = `${head}
+const sumOfLamps = (count) => `${head}
 uniform sampler2DArray lamps;
-uniform vec3 gains[${mostLamps}];
+uniform vec3 gains[${count}];
 uniform int count;
 void main() {
     vec3 light = vec3(0.0);
     for (int k = 0; k < count; ++k)
         if (gains[k] != vec3(0.0)) light += gains[k] * texelFetch(lamps, ivec3(gl_FragCoord.xy, k), 0).rgb;
-    made = vec4(min(light, ${largest}.0), 1.0);
+    made = vec4(clamp(light, -${largest}.0, ${largest}.0), 1.0);
 }`;
 
 const fitOfDetails = `${head}
@@ -110,9 +110,11 @@ export class LampSum {
         [this.others, this.one, this.lit] = [0, 1, 2].map(() => target(width, height));
         this.maps = arrayOf(lamps, bytes, halfWidth, halfHeight, unit);
         const [slope, rest] = this.fit.textures;
-        const unused = Array.from({ length: mostLamps - lamps.length }, () => new THREE.Vector3());
+        const count = Math.max(places, lamps.length);
+        const unused = Array.from({ length: count - lamps.length }, () => new THREE.Vector3());
         this.summed = this.gains.map((gain) => gain.clone());
-        this.sumPass = pass(sumOfLamps, { lamps: this.maps, count: lamps.length, gains: [...this.summed, ...unused] });
+        this.sumPass = pass(sumOfLamps(count),
+            { lamps: this.maps, count: lamps.length, gains: [...this.summed, ...unused] });
         this.fitPass = pass(fitOfDetails, { sum: this.sum.texture, whole: all.texture });
         this.detailPass = pass(withDetails, { slope, rest, details: whole, least: 0 });
         this.twoPass = pass(sumOfTwo,

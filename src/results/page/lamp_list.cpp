@@ -25,19 +25,6 @@ glm::dvec3 lamp_color_of(const JsonView& view)
     return color;
 }
 
-/// The path without its end: ".exr", or "-0.exr" if each map has several pages.
-std::string map_of(const JsonView& view, int pages)
-{
-    const std::string& path = view.string();
-    const std::string end = pages > 1 ? "-0.exr" : ".exr";
-    if (path.size() <= end.size() || !path.ends_with(end))
-        view.fail("is " + lumel::quoted(path) + ", but must end with " + end);
-    const std::filesystem::path parts(path);
-    if (parts.is_absolute() || std::find(parts.begin(), parts.end(), "..") != parts.end())
-        view.fail("is " + lumel::quoted(path) + ", but must be a file in the folder of the bake");
-    return path.substr(0, path.size() - end.size());
-}
-
 ListedLamp lamp_of(const JsonView& view, int pages)
 {
     ListedLamp lamp{.name = view.get("name").string(),
@@ -45,7 +32,7 @@ ListedLamp lamp_of(const JsonView& view, int pages)
                     .members = {},
                     .color = lamp_color_of(view.get("color")),
                     .error = {},
-                    .map = map_of(view.get("map"), pages)};
+                    .map = map_path_of(view.get("map"), pages)};
     if (lamp.name.empty())
         view.get("name").fail("must not be empty");
     view.get("members").each(
@@ -56,6 +43,18 @@ ListedLamp lamp_of(const JsonView& view, int pages)
 }
 
 }  // namespace
+
+std::string map_path_of(const JsonView& view, int pages)
+{
+    const std::string& path = view.string();
+    const std::string end = pages > 1 ? "-0.exr" : ".exr";
+    if (path.size() <= end.size() || !path.ends_with(end))
+        view.fail("is " + lumel::quoted(path) + ", but must end with " + end);
+    const std::filesystem::path parts(path);
+    if (parts.is_absolute() || std::find(parts.begin(), parts.end(), "..") != parts.end())
+        view.fail("is " + lumel::quoted(path) + ", but must be a file in the folder of the bake");
+    return path.substr(0, path.size() - end.size());
+}
 
 std::vector<ListedLamp> lamps_of(const JsonView& document, int pages)
 {

@@ -29,4 +29,8 @@ struct ListedLamp {
 /// the folder.
 std::vector<ListedLamp> lamps_of(const JsonView& document, int pages);
 
+/// Path of a map in the folder without its end: ".exr", or "-0.exr" if each map has several pages.
+/// Throws Error{input} if it has another end or leads out of the folder.
+std::string map_path_of(const JsonView& view, int pages);
+
 }  // namespace lumel

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <set>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include "results/files/folder.h"
 #include "results/files/glb_builder.h"
 #include "results/files/half_map.h"
+#include "results/page/daylight_list.h"
 #include "results/page/lamp_list.h"
 #include "results/page/packed_text.h"
 #include "results/page/viewer.h"
@@ -87,30 +89,107 @@ std::vector<std::uint8_t> error_bytes(const std::string& solution, const Image& 
     return bytes;
 }
 
-/// Data for viewer/lamp_map.js: the lamps, and the maps of all as text. width, height: of the
-/// lightmap.
-Json lamps_data(const std::string& folder, const Pages& pages, int width, int height)
+/// Data for viewer/lamp_map.js: maps that the page adds up with factors, at half the size.
+class DimmedMaps {
+public:
+    /// lamp: entry of the list. map: its light at a factor of 1, divided by `share`.
+    void add(Json lamp, const Image& map, float share = 1.0f)
+    {
+        const HalfMap coded = half_map(map);
+        bytes_.insert(bytes_.end(), coded.bytes.begin(), coded.bytes.end());
+        lamp["brightest"] = shortest(share * coded.brightest);
+        list_.push_back(std::move(lamp));
+    }
+
+    Json data() const { return {{"list", list_}, {"maps", packed_text(bytes_)}}; }
+
+private:
+    Json list_ = Json::array();
+    std::vector<std::uint8_t> bytes_;
+};
+
+/// A map of the folder, of the size of the lightmap.
+Image map_like(const Image& lightmap, const std::string& folder, const Pages& pages,
+               const std::string& name)
+{
+    Image map = whole_map(folder, pages, name);
+    if (map.width != lightmap.width || map.height != lightmap.height)
+        throw Error(ErrorKind::input, (fs::path(folder) / name).string(),
+                    "has another size than the lightmap");
+    return map;
+}
+
+void add_lamps(DimmedMaps& dimmed, const std::string& folder, const Pages& pages,
+               const Image& lightmap)
 {
     const std::string file = (fs::path(folder) / kLampsFile).string();
     const Json document = read_json(file);
-    Json list = Json::array();
-    std::vector<std::uint8_t> bytes;
     for (const ListedLamp& lamp : lamps_of(JsonView(file, document), pages.count)) {
-        const Image map = whole_map(folder, pages, lamp.map);
-        if (map.width != width || map.height != height)
-            throw Error(ErrorKind::input, (fs::path(folder) / lamp.map).string(),
-                        "has another size than the lightmap");
-        const HalfMap coded = half_map(map);
-        bytes.insert(bytes.end(), coded.bytes.begin(), coded.bytes.end());
-        list.push_back({{"name", lamp.name},
-                        {"kind", lamp.kind},
-                        {"members", lamp.members},
-                        {"color", json_array(lamp.color)},
-                        {"brightest", shortest(coded.brightest)}});
+        Json entry = {{"name", lamp.name},
+                      {"kind", lamp.kind},
+                      {"members", lamp.members},
+                      {"color", json_array(lamp.color)}};
         if (lamp.error)
-            list.back()["error"] = *lamp.error;
+            entry["error"] = *lamp.error;
+        dimmed.add(std::move(entry), map_like(lightmap, folder, pages, lamp.map));
     }
-    return {{"list", list}, {"maps", packed_text(bytes)}};
+}
+
+/// All light of the bake as one lamp, if there is any: it shares the page with daylight.
+void add_light_of_bake(DimmedMaps& dimmed, const Image& lightmap)
+{
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < lightmap.values.size(); i += 4)
+        for (int c = 0; c < 3; ++c)
+            sum[c] += double(std::max(lightmap.values[i + std::size_t(c)], 0.0f));
+    const double largest = std::max({sum.x, sum.y, sum.z});
+    if (largest > 0.0)
+        dimmed.add({{"name", "light of the bake"},
+                    {"kind", "bake"},
+                    {"members", Json::array()},
+                    {"color", json_array(sum / largest)}},
+                   lightmap);
+}
+
+/// Rows of floats for viewer/hours.js: index, direction of the sun (3), lux, mean, weights.
+std::vector<std::uint8_t> hour_bytes(const std::vector<ListedHour>& hours)
+{
+    std::vector<float> rows;
+    for (const ListedHour& hour : hours) {
+        for (const double value :
+             {double(hour.index), hour.sun.x, hour.sun.y, hour.sun.z, hour.lux, hour.mean})
+            rows.push_back(float(value));
+        rows.insert(rows.end(), hour.weights.begin(), hour.weights.end());
+    }
+    std::vector<std::uint8_t> bytes(rows.size() * sizeof(float));
+    std::memcpy(bytes.data(), rows.data(), bytes.size());
+    return bytes;
+}
+
+/// Data for viewer/hours.js. Adds the maps, divided by their number, to the list and to the
+/// lightmap: their mean is about as bright as an hour, so that neither the details of lamps are
+/// lost in it nor those of daylight in the lamps.
+Json add_daylight(DimmedMaps& dimmed, const std::string& folder, const Pages& pages,
+                  Image& lightmap)
+{
+    const std::string file = (fs::path(folder) / kDaylightFile).string();
+    const Json document = read_json(file);
+    const ListedDaylight daylight = daylight_of(JsonView(file, document), pages.count);
+    const float share = 1.0f / float(daylight.maps.size());
+    for (const std::string& name : daylight.maps) {
+        const Image map = map_like(lightmap, folder, pages, name);
+        for (std::size_t i = 0; i < map.values.size(); ++i)
+            if (i % 4 < 3)
+                lightmap.values[i] += share * std::max(map.values[i], 0.0f);
+        dimmed.add({{"name", name},
+                    {"kind", "daylight"},
+                    {"members", Json::array()},
+                    {"color", {1, 1, 1}}},
+                   map, share);
+    }
+    return {{"place", daylight.place},         {"latitude", daylight.latitude},
+            {"longitude", daylight.longitude}, {"error", daylight.error},
+            {"maps", daylight.maps.size()},    {"hours", packed_text(hour_bytes(daylight.hours))}};
 }
 
 /// Names of the bakes: their folders' names, or their paths if these are equal.
@@ -158,8 +237,17 @@ Json page_data(const std::string& folder, const std::string& name)
     const Json report = read_json(in_folder(kReportFile));
     const Pages pages = pages_in(folder, report);
     Image map = whole_map(folder, pages, kLightmapName);
-    const int width = map.width, height = map.height;
     const std::vector<std::uint8_t> errors = error_bytes(in_folder(kSolutionFile), map);
+    const bool has_lamps = fs::exists(in_folder(kLampsFile)),
+               has_daylight = fs::exists(in_folder(kDaylightFile));
+    DimmedMaps dimmed;
+    Json daylight;
+    if (has_lamps)
+        add_lamps(dimmed, folder, pages, map);
+    else if (has_daylight)
+        add_light_of_bake(dimmed, map);
+    if (has_daylight)
+        daylight = add_daylight(dimmed, folder, pages, map);
     const auto [lightmap, unit] = small_lightmap(std::move(map));
     Json data = {{"name", name},
                  {"report", report},
@@ -169,8 +257,10 @@ Json page_data(const std::string& folder, const std::string& name)
                  {"unit", shortest(unit)},
                  {"errors", packed_text(errors)},
                  {"least_error", shortest(kLeastError)}};
-    if (fs::exists(in_folder(kLampsFile)))
-        data["lamps"] = lamps_data(folder, pages, width, height);
+    if (has_lamps || has_daylight)
+        data["lamps"] = dimmed.data();
+    if (has_daylight)
+        data["daylight"] = daylight;
     return data;
 }
 

@@ -11,8 +11,9 @@ namespace lumel {
 /// Throws Error{input} if Lumel was built without three.js: pages are then unavailable.
 void check_viewer();
 
-/// Data of one bake for the page's viewer; has "lamps" only if the folder has lamps.json. Throws
-/// Error{input} for files that cannot be read.
+/// Data of one bake for the page's viewer; has "lamps" only if the folder has lamps.json or
+/// daylight.json, and "daylight" only if it has the latter. Throws Error{input} for files that
+/// cannot be read.
 Json page_data(const std::string& folder, const std::string& name);
 
 /// Writes one self-contained HTML file. folders: one finished bake, or two to show side by side.

@@ -6,8 +6,10 @@ import { canAdd } from '../../../../addons/three/lamp_sum.js';
 import { lampSurfaces } from '../../../../addons/three/lamp_surfaces.js';
 import { makeDiffuse } from '../../../../addons/three/lightmap.js';
 import { ErrorMap } from './errors.js';
+import { Hours } from './hours.js';
 import { LampMap } from './lamp_map.js';
 import { readLightmap } from './lightmap.js';
+import { Sun } from './sun.js';
 
 // Unpacks base64 of gzip.
 async function unpack(text) {
@@ -57,21 +59,40 @@ function firstView(gltf, preview) {
     return camera;
 }
 
+// Lamps of the page; that of all light of the bake makes all emissive surfaces shine.
+function lampsIn(scene, { list }) {
+    const shining = [];
+    scene.traverse(({ material }) => material?.emissive && shining.push(material.name));
+    const lamps = list.filter(({ kind }) => kind !== 'daylight').map((lamp) =>
+        lamp.kind === 'bake' ? { ...lamp, members: shining } : lamp);
+    return lampSurfaces(scene, lamps).map((surfaces, k) => ({ ...lamps[k], surfaces }));
+}
+
+async function readDaylight({ hours, maps, ...place }) {
+    return { ...place, hours: new Hours(new Float32Array(await unpack(hours)), maps) };
+}
+
 /** One baked folder: its report, its scene lit by its lightmap, and the first view. */
 async function readBake(renderer, { name, report, glb, lightmap, unit, pages_across: pagesAcross, errors,
-    least_error: leastError, lamps }) {
+    least_error: leastError, lamps, daylight: packedDaylight }) {
     const whole = await readLightmap(renderer, await unpack(lightmap), unit, pagesAcross);
     const dimmed = lamps && canAdd(renderer);
     const map = dimmed ? new LampMap(renderer, whole, lamps.list, new Uint8Array(await unpack(lamps.maps))) : whole;
     const errorBytes = new Uint8Array(await unpack(errors));
     const gltf = await new GLTFLoader().parseAsync(await unpack(glb), '');
     makeDiffuse(gltf);
+    const daylight = dimmed && packedDaylight ? await readDaylight(packedDaylight) : null;
+    if (daylight) map.setDaylight(daylight.hours.brightest);
+    const lit = bindLightmap(gltf.scene, map);
+    const switched = dimmed ? lampsIn(gltf.scene, lamps) : [];
     return {
         name, report, map,
         errors: errorBytes.length > 0 ? new ErrorMap(errorBytes, map.width, map.height, leastError) : null,
         scene: gltf.scene,
-        lit: bindLightmap(gltf.scene, map),
-        lamps: dimmed ? lampSurfaces(gltf.scene, lamps.list).map((surfaces, k) => ({ ...lamps.list[k], surfaces })) : [],
+        lit,
+        lamps: switched,
+        daylight,
+        sun: daylight && new Sun(gltf.scene), // of materials as they are now
         exposure: gltf.asset.extras?.lumel?.exposure ?? report.solution.exposure ?? 1, // [1/lx]
         camera: firstView(gltf, report.preview),
     };

@@ -51,11 +51,11 @@ export class Scale {
     }
 }
 
-/** Of illuminance: from the 2nd to the 99.5th percentile of the lit texels, rounded. */
-export function scaleOfLight(maps) {
+/** Of illuminance: from the 2nd to the 99.5th percentile of the lit texels, rounded; sun: the strongest, or 0 [lx]. */
+export function scaleOfLight(maps, sun) {
     const lit = maps.flatMap((map) => map.sampleOfLux()).filter((lux) => lux > 0).sort((a, b) => a - b);
     const part = (share) => lit[Math.floor(share * (lit.length - 1))] ?? 1;
-    const high = roundUp(part(0.995));
+    const high = roundUp(Math.max(part(0.995), sun));
     return new Scale(Math.min(Math.max(roundUp(part(0.02)) / 2, high / 1e4), high / 10), high, 'lux', luxText);
 }
 

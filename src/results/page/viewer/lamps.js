@@ -1,11 +1,9 @@
-// A slider, a colour and a switch for each lamp; presets. The page's address holds the state.
+// A slider, a colour and a switch for each lamp; presets.
 
 import { dim } from '../../../../addons/three/lamp_surfaces.js';
 import { percentText } from './colours.js';
 import { element } from './facts.js';
-import { gainOf, hashOf, hexOf, readHash, stateOf } from './lighting.js';
-
-const millisecondsToAddress = 200; // browsers refuse to change the address with each move of a slider
+import { gainOf, hexOf, stateOf } from './lighting.js';
 
 const button = (text, pressed, attributes = {}) => {
     const made = element('button', { type: 'button', ...attributes }, text);
@@ -60,8 +58,9 @@ function row(lamp, set) {
 
 export class Lamps {
     /** Controls for bakes with lamps. changed: called with this when the light or the presets have changed. */
-    constructor(bakes, changed) {
+    constructor(bakes, address, changed) {
         this.bakes = bakes;
+        this.address = address;
         this.changed = changed;
         this.lamps = byName(bakes);
         this.rows = new Map([...this.lamps].map(([name, lamp]) =>
@@ -69,8 +68,11 @@ export class Lamps {
         this.presetList = element('ul', { class: 'presets' });
         this.node = element('section', { id: 'lamps', 'aria-label': 'lamps' }, this.switches(),
             element('ul', {}, ...[...this.rows.values()].map(({ node }) => node)), this.presetForm(), this.presetList);
-        this.readAddress();
-        addEventListener('hashchange', () => this.readAddress());
+        address.read(({ states, presets }) => {
+            this.presets = presets;
+            this.showPresets();
+            this.setAll(states);
+        });
     }
 
     switches() {
@@ -78,7 +80,7 @@ export class Lamps {
             this.setAll(new Map([...this.states].map(([name, state]) => [name, { ...state, ...change }])));
         return element('p', {}, button('all on', all({ on: true })), button('all off', all({ on: false })),
             button('as baked', () => this.setAll(new Map())),
-            ...(navigator.clipboard ? [button('copy link', () => this.copyLink())] : []));
+            ...this.address.copyButton());
     }
 
     presetForm() {
@@ -127,27 +129,7 @@ export class Lamps {
         this.changed(this);
     }
 
-    readAddress() {
-        const { states, presets } = readHash(location.hash);
-        this.presets = presets;
-        this.showPresets();
-        this.setAll(states);
-    }
-
     writeAddress() {
-        clearTimeout(this.later);
-        this.later = setTimeout(() => this.writeAddressNow(), millisecondsToAddress);
-    }
-
-    writeAddressNow() {
-        clearTimeout(this.later);
-        const hash = hashOf(this.states, this.presets);
-        if (hash !== location.hash.slice(1))
-            history.replaceState(null, '', hash ? `#${hash}` : location.pathname + location.search);
-    }
-
-    copyLink() {
-        this.writeAddressNow();
-        navigator.clipboard.writeText(location.href).catch(() => {}); // the address is still there to copy
+        this.address.write({ states: this.states, presets: this.presets });
     }
 }

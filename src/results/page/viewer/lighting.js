@@ -49,19 +49,20 @@ function statesOf(text) {
     }));
 }
 
-/** The part of an address after #: lamps=…;presets=name/…/name/… */
-export function hashOf(states, presets) {
-    const parts = [['lamps', textOf(states)],
+/** The part of an address after #: time=…;lamps=…;presets=name/…/name/… */
+export function hashOf({ time, states, presets }) {
+    const parts = [['time', time], ['lamps', textOf(states)],
         ['presets', [...presets].map(([name, preset]) => `${encoded(name)}/${textOf(preset)}`).join('/')]];
     return parts.filter(([, text]) => text).map(([key, text]) => `${key}=${text}`).join(';');
 }
 
-/** States and presets by name; empty for an address of another kind. */
+/** Time as text, states and presets by name; empty for an address of another kind. */
 export function readHash(hash) {
-    const found = { states: new Map(), presets: new Map() };
+    const found = { time: '', states: new Map(), presets: new Map() };
     try {
         for (const part of hash.replace(/^#/, '').split(';')) {
             const [key, text = ''] = part.split('=');
+            if (key === 'time') found.time = text;
             if (key === 'lamps') found.states = statesOf(text);
             const names = key === 'presets' ? text.split('/') : [];
             for (let i = 0; i + 1 < names.length; i += 2)

@@ -69,12 +69,15 @@ export class Lightmap {
         return this.samples([{ x: u, y: v }])[0];
     }
 
+    /** Indices of texels spread over the whole map. */
+    spread() {
+        const count = this.width * this.height, step = Math.max(1, Math.floor(count / mostSamples));
+        return Array.from({ length: Math.ceil(count / step) }, (_, i) => i * step);
+    }
+
     /** Illuminance of texels spread over the whole map. [lx] */
     sampleOfLux() {
-        const step = Math.max(1, Math.floor(this.words.length / mostSamples));
-        const found = [];
-        for (let i = 0; i < this.words.length; i += step) found.push(this.unit * luxOf(unpacked(this.words[i])));
-        return found;
+        return this.spread().map((i) => this.unit * luxOf(unpacked(this.words[i])));
     }
 }
 

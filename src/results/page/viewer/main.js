@@ -1,8 +1,10 @@
 // A page about one bake or two: the scene, its lightmap, errors, times and settings.
 
 import * as THREE from 'three';
+import { Address } from './address.js';
 import { packedBakes, readBakes } from './bakes.js';
 import { colourAt, luxOf, luxText, percentText, scaleOfErrors, scaleOfLight } from './colours.js';
+import { Daylight } from './daylight.js';
 import { convergence, element, lineColour, summary, table, timesTable } from './facts.js';
 import { Lamps } from './lamps.js';
 import { Legend } from './legend.js';
@@ -89,8 +91,8 @@ function addAtlases(bakes, scale, legend) {
             const x = Math.min(Math.floor(u * bake.map.width), bake.map.width - 1);
             const y = Math.min(Math.floor(v * bake.map.height), bake.map.height - 1);
             const lux = luxOf(bake.map.at(x, y));
-            const error = errorAt(bake, { x: u, y: v });
-            reading.textContent = `${valueText(lux, error)} at column ${x}, row ${y}`;
+            const error = errorAt(bake, { x: u, y: v }), without = bake.sun ? ' without direct sun' : '';
+            reading.textContent = `${valueText(lux, error)}${without} at column ${x}, row ${y}`;
             legend.draw({ lux });
         });
         drawn.push(() => drawAtlas(canvas, bake.map, scale));
@@ -106,14 +108,16 @@ const valueText = (lux, error) => error ? `${luxText(lux)} ± ${percentText(erro
 // Estimates are of the light as baked.
 const errorAt = ({ errors, map }, { x, y }) => map.asBaked === false ? null : errors?.at(x, y) ?? null;
 
-// Mean and uniformity of the surface under the mouse, of bakes with lamps.
-function surfaceText({ bake, hit }, known) {
-    if (bake.lamps.length === 0) return '';
+// Mean and uniformity of the surface under the mouse, of bakes with lamps or daylight.
+function surfaceText({ bake: { map, lamps, sun }, hit, normal }, known) {
+    if (lamps.length === 0 && !sun) return '';
     if (known.hit?.object !== hit.object || known.hit.faceIndex !== hit.faceIndex)
         Object.assign(known, { hit, surface: surfaceAt(hit) });
-    const { mean, uniformity } = lightOver(known.surface, bake.map);
+    const inSun = sun?.lux > 0 && normal.dot(sun.direction) > 0;
+    const { mean, uniformity } =
+        lightOver(known.surface, map, inSun && sun.quick ? (place) => sun.at(place, normal) : null);
     Object.assign(byId('reading').dataset, { mean, uniformity });
-    return `; its surface: mean ${luxText(mean)}, least / mean ${uniformity.toFixed(2)}`;
+    return `; its surface${inSun && !sun.quick ? ' without direct sun' : ''}: mean ${luxText(mean)}, least / mean ${uniformity.toFixed(2)}`;
 }
 
 // Shows the light under the mouse below the scene. Returns a function that reads it again.
@@ -122,8 +126,9 @@ function readUnderMouse(stage, legend) {
     let found = null;
     const show = () => {
         if (!found) return;
-        const { bake, uv, place: { x, y, z } } = found;
-        const lux = luxOf(bake.map.sample(uv.x, uv.y)), error = errorAt(bake, uv);
+        const { bake, uv, normal, place, place: { x, y, z } } = found;
+        const sun = bake.sun ? luxOf(bake.sun.at(place, normal)) : 0;
+        const lux = luxOf(bake.map.sample(uv.x, uv.y)) + sun, error = errorAt(bake, uv);
         const which = stage.bakes.length > 1 ? `, ${bake.name}` : '';
         reading.textContent = `${valueText(lux, error)} at ${x.toFixed(2)}, ${y.toFixed(2)}, ${z.toFixed(2)} m${which}`
             + surfaceText(found, known);
@@ -179,29 +184,36 @@ function addRoom([bake]) {
     return room;
 }
 
-// Sliders of the lamps. A moved one shows in the next frame; the whole lightmap follows when all rest.
-function addLamps(stage, readAgain, drawAtlases, room) {
-    const bakes = stage.bakes.filter(({ lamps }) => lamps.length > 0);
-    if (bakes.length === 0) {
-        say('The lamps cannot be dimmed: this browser cannot draw into textures of floating-point numbers.');
+// Sliders of time and lamps. A moved one shows in the next frame; the whole lightmap follows when all rest.
+function addLights(stage, readAgain, drawAtlases, room) {
+    const dimmed = stage.bakes.filter(({ lamps }) => lamps.length > 0);
+    const daylit = stage.bakes.filter(({ daylight }) => daylight);
+    if (dimmed.length + daylit.length === 0) {
+        say('Neither lamps nor time can be set: this browser cannot draw into textures of floating-point numbers.');
         return;
     }
     let later = 0;
-    let changed = null; // the lamps, until their light is drawn
+    let isOld = false, lamps = null; // until their light is drawn
     stage.drawn = () => {
-        if (!changed) return;
+        if (!isOld) return;
         readAgain();
-        room?.show(changed.states, changed.presets);
-        changed = null;
+        if (lamps) room?.show(lamps.states, lamps.presets);
+        isOld = false;
+        lamps = null;
     };
-    const lamps = new Lamps(bakes, (moved) => {
-        changed = moved;
+    const changed = (moved) => {
+        isOld = true;
+        lamps ??= moved;
         stage.draw();
         clearTimeout(later);
         later = setTimeout(drawAtlases, millisecondsToAtlas);
-    });
-    byId('scene').append(lamps.node);
-    byId('scene').classList.add('with-lamps');
+    };
+    const address = new Address();
+    const controls = element('div', { id: 'controls' });
+    if (daylit.length > 0) controls.append(new Daylight(daylit, address, () => changed(null)).node);
+    if (dimmed.length > 0) controls.append(new Lamps(dimmed, address, changed).node);
+    byId('scene').append(controls);
+    byId('scene').classList.add('with-controls');
 }
 
 async function open() {
@@ -215,7 +227,8 @@ async function open() {
 
     const stage = new Stage(document.querySelector('#stage canvas'));
     const bakes = await readBakes(stage.renderer, packed);
-    const scales = { lux: scaleOfLight(bakes.map((bake) => bake.map)), error: scaleOfErrors() };
+    const sun = bakes.reduce((most, { daylight }) => Math.max(most, daylight?.hours.sun ?? 0), 0);
+    const scales = { lux: scaleOfLight(bakes.map((bake) => bake.map), sun), error: scaleOfErrors() };
     stage.show(bakes, scales);
     const legend = new Legend(document.querySelector('#legend canvas'), scales.lux);
     const size = new THREE.Box3().setFromObject(bakes[0].scene).getSize(new THREE.Vector3()).length();
@@ -224,7 +237,7 @@ async function open() {
     const readAgain = readUnderMouse(stage, legend);
     const drawAtlases = addAtlases(bakes, scales.lux, legend);
     const room = addRoom(packed);
-    if (packed.some(({ lamps }) => lamps)) addLamps(stage, readAgain, drawAtlases, room);
+    if (packed.some(({ lamps }) => lamps)) addLights(stage, readAgain, drawAtlases, room);
     stage.drawNow();
     document.documentElement.dataset.state = 'ready';
 }

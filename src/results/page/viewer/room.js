@@ -52,7 +52,7 @@ function headerOf({ report, room }) {
 export class Room {
     /** room: by room_data(). lamps: of the bake, in the order of its values; none: all light together. */
     constructor({ report, room, lamps }) {
-        Object.assign(this, { room, lamps: lamps?.list ?? [] });
+        Object.assign(this, { room, lamps: lamps?.list.filter(({ kind }) => kind !== 'daylight') ?? [] });
         [this.results, this.scenes, this.list] = [1, 2, 3].map(() => element('table'));
         this.plan = drawn('svg', { role: 'img', 'aria-label': 'maintained illuminance in the room' });
         const brightest = room.areas.flatMap((area) => this.light(area, new Map()))

@@ -1,11 +1,13 @@
 // The scene in WebGL: lit, with white materials or in false colours; two bakes side by side.
 
 import * as THREE from 'three';
+import { exposureOf } from './exposure.js';
+import { shadeBySun } from './sun.js';
 
-// Replacements for a fragment's surface colour × light.
+// Replacements for a fragment's surface colour × light. `light` is that of a white surface.
 const shownInstead = {
-    light: 'outgoingLight = lightMapTexel.rgb * lightMapIntensity * RECIPROCAL_PI;',
-    lux: `float lux = lightMapIntensity * dot( lightMapTexel.rgb, vec3( 0.2126, 0.7152, 0.0722 ) );
+    light: 'outgoingLight = light;',
+    lux: `float lux = PI * dot( light, vec3( 0.2126, 0.7152, 0.0722 ) );
         float place = log( max( lux, 1e-9 ) / luxRange.x ) / log( luxRange.y / luxRange.x );
         outgoingLight = texture2D( falseColours, vec2( clamp( place, 0.002, 0.998 ), 0.5 ) ).rgb;`,
     error: `float byte = 255.0 * texture2D( errorMap, vLightMapUv ).r;
@@ -27,21 +29,35 @@ function noErrors() {
     return texture;
 }
 
-// A material that shows only the light of a surface, with its cut-outs and sides.
-function lightAlone(material, mode, uniforms) {
-    const shown = new THREE.MeshBasicMaterial({
+// Light of a white surface by the lightmap alone, and with that of the sun.
+const ofMap = 'vec3 light = lightMapTexel.rgb * lightMapIntensity * RECIPROCAL_PI;';
+const ofMapAndSun = 'vec3 light = outgoingLight;';
+const whitened = 'diffuseColor.rgb = vec3( 1.0 );\n#include <lights_lambert_fragment>';
+
+// A material that shows only the light of a surface, with its cut-outs and sides. sun: if the scene has one.
+function lightAlone(material, mode, uniforms, sun) {
+    const lambert = sun && mode !== 'error';
+    const shown = new (lambert ? THREE.MeshLambertMaterial : THREE.MeshBasicMaterial)({
         map: material.map, alphaTest: material.alphaTest, transparent: material.transparent, side: material.side,
         opacity: material.opacity, lightMap: material.lightMap,
         lightMapIntensity: material.lightMapIntensity, toneMapped: !inFalseColours.includes(mode),
+        shadowSide: material.shadowSide, ...(lambert ? { flatShading: material.flatShading } : {}),
     });
     shown.onBeforeCompile = (shader) => {
         Object.assign(shader.uniforms, uniforms);
-        shader.fragmentShader = declared + shader.fragmentShader.replace('#include <opaque_fragment>',
-            `${shownInstead[mode]}\n#include <opaque_fragment>`);
+        if (lambert) shadeBySun(shader);
+        shader.fragmentShader = declared + shader.fragmentShader
+            .replace('#include <lights_lambert_fragment>', whitened)
+            .replace('#include <opaque_fragment>',
+                `${lambert ? ofMapAndSun : ofMap}\n${shownInstead[mode]}\n#include <opaque_fragment>`);
     };
     shown.customProgramCacheKey = () => mode;
     return shown;
 }
+
+// Normal of a hit as it is shaded, on the side of the eye.
+const worldNormal = ({ object, normal, face }) => (normal ?? face.normal).clone()
+    .applyNormalMatrix(new THREE.Matrix3().getNormalMatrix(object.matrixWorld));
 
 export class Stage {
     constructor(canvas) {
@@ -65,13 +81,14 @@ export class Stage {
             falseColours: { value: lux.texture() },
         };
         for (const bake of bakes) {
-            const { errors } = bake;
+            const { errors, sun } = bake;
+            if (sun) this.renderer.shadowMap.enabled = true;
             const uniforms = { ...shared, leastError: { value: errors?.leastError ?? 1 },
                 errorMap: { value: errors?.texture() ?? noErrors() } };
             bake.materials = bake.lit.map(({ material }) => ({
                 lit: material,
                 ...Object.fromEntries(Object.keys(shownInstead).map((mode) =>
-                    [mode, lightAlone(material, mode, uniforms)])),
+                    [mode, lightAlone(material, mode, uniforms, sun)])),
             }));
         }
         this.camera = new THREE.PerspectiveCamera();
@@ -116,7 +133,7 @@ export class Stage {
         for (const { map } of this.bakes) map.refresh?.();
         const { clientWidth: width, clientHeight: height } = this.canvas;
         // A white material with irradiance H sends H / π, and shows as AgX of exposure × H.
-        this.renderer.toneMappingExposure = Math.PI * this.bakes[0].exposure * 2 ** this.stops;
+        this.renderer.toneMappingExposure = Math.PI * exposureOf(this.bakes[0]) * 2 ** this.stops;
         const seam = this.bakes.length > 1 ? Math.round(this.split * width) : width;
         const parts = [[0, seam], [seam, width - seam]];
         this.bakes.forEach((bake, i) => {
@@ -135,6 +152,6 @@ export class Stage {
         const hit = this.caster.intersectObjects(bake.lit, false).find((met) => met.uv1);
         if (!hit) return null;
         const uv = hit.object.material.lightMap.transformUv(hit.uv1.clone()); // in the whole map
-        return { bake, hit, place: hit.point, uv };
+        return { bake, hit, place: hit.point, uv, normal: worldNormal(hit) };
     }
 }

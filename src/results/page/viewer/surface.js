@@ -4,6 +4,7 @@ import * as THREE from 'three';
 import { luxOf } from './colours.js';
 
 const samples = 1024; // over the surface
+const mostRays = 64;
 const samePlane = { cosine: 0.9995, metres: 0.002 };
 // The sequence of Roberts in the unit square [Rob18].
 const steps = [0.7548776662466927, 0.5698402909980532];
@@ -26,34 +27,46 @@ function planeOf([a, b, c]) {
     return { normal, offset: normal.dot(a.place), area };
 }
 
-// Positions in the lightmap, spread over a triangle.
+// Points spread over a triangle, with their positions in the lightmap.
 function spread([a, b, c], count, lightMap) {
     return Array.from({ length: count }, (_, i) => {
         let [s, t] = steps.map((step) => (0.5 + step * (i + 1)) % 1);
         if (s + t > 1) [s, t] = [1 - s, 1 - t];
         const uv = a.uv.clone().multiplyScalar(1 - s - t).addScaledVector(b.uv, s).addScaledVector(c.uv, t);
-        return lightMap.transformUv(uv);
+        const place = a.place.clone().multiplyScalar(1 - s - t).addScaledVector(b.place, s).addScaledVector(c.place, t);
+        return { uv: lightMap.transformUv(uv), place };
     });
 }
 
-/** Points of the surface of a hit of THREE.Raycaster: positions in the lightmap and their areas. */
+// Parts of the surface for which rays to the sun are cast.
+function fewer({ points, areas }) {
+    const step = Math.max(Math.ceil(points.length / mostRays), 1), kept = (_, i) => i % step === 0;
+    return { points: points.filter(kept), areas: areas.filter(kept) };
+}
+
+/** Points { uv, place } of the surface of a hit of THREE.Raycaster, and their areas. */
 export function surfaceAt({ object, faceIndex }) {
     const triangles = trianglesOf(object), planes = triangles.map(planeOf), { normal, offset } = planes[faceIndex];
     const within = triangles.map((_, i) => i).filter((i) => planes[i].area > 0
         && planes[i].normal.dot(normal) > samePlane.cosine && Math.abs(planes[i].offset - offset) < samePlane.metres);
     const whole = within.reduce((sum, i) => sum + planes[i].area, 0);
-    const places = [], areas = [];
+    const points = [], areas = [];
     for (const i of within) {
         const count = Math.ceil(samples * planes[i].area / whole);
-        places.push(...spread(triangles[i], count, object.material.lightMap));
+        points.push(...spread(triangles[i], count, object.material.lightMap));
         areas.push(...Array(count).fill(planes[i].area / count));
     }
-    return { object, places, areas };
+    return { points, areas };
 }
 
-/** Mean illuminance of a surface [lx], and its uniformity: the least, relative to the mean. */
-export function lightOver({ places, areas }, map) {
-    const lux = map.samples(places).map(luxOf);
+/**
+ * Mean illuminance of a surface [lx], and its uniformity: the least, relative to the mean. sunAt(place): irradiance by
+ * direct sun; null: none.
+ */
+export function lightOver(surface, map, sunAt) {
+    const { points, areas } = sunAt ? fewer(surface) : surface;
+    const lux = map.samples(points.map(({ uv }) => uv)).map(luxOf);
+    if (sunAt) points.forEach(({ place }, i) => { lux[i] += luxOf(sunAt(place)); });
     const whole = areas.reduce((sum, area) => sum + area, 0);
     const mean = lux.reduce((sum, value, i) => sum + value * areas[i], 0) / whole;
     return { mean, uniformity: mean > 0 ? lux.reduce((a, b) => Math.min(a, b)) / mean : 0 };
