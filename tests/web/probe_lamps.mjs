@@ -1,7 +1,9 @@
-// Opens a page of lumel report whose lamps have sliders, works them, and prints what it shows after each step, as JSON:
+// Opens a page of lumel report with sliders of lamps or of time, works them, and prints what it shows after each step, as
+// JSON:
 //     node probe_lamps.mjs page.html --browser-module FILE --steps FILE [--hash TEXT] [--points X,Y …]
 // steps: [{ press: BUTTON } | { lamp: NAME, factor: 0…2, on: BOOLEAN, colour: "#rrggbb" } | { save: PRESET }
-//     | { mode: NAME }, …]. points: of the scene's canvas, as parts of its width and height.
+//     | { mode: NAME } | { date: PLACE, minutes: NUMBER } | { daylight: BOOLEAN } | { stops: EXPOSURE }
+//     | { wait: MILLISECONDS }, …]. points: of the scene's canvas, as parts of its width and height.
 // Exits with 0, or with 1 and a sentence.
 
 import { readFile } from 'node:fs/promises';
@@ -56,12 +58,17 @@ async function probe(points, steps) {
         input.value = value;
         input.dispatchEvent(new Event(event));
     };
-    function work({ press, lamp, factor, on, colour, save, mode }) {
+    function work({ press, lamp, factor, on, colour, save, mode, date, minutes, daylight, stops }) {
         if (!press && !mode && !save && lamp === undefined) { // draws the scene alone
             const exposure = document.getElementById('exposure');
-            enter(exposure, exposure.value);
+            enter(exposure, stops ?? exposure.value);
         }
-        if (press) [...document.querySelectorAll('#lamps button')].find((one) => one.textContent === press).click();
+        const [days, clock] = document.querySelectorAll('#daylight [type=range]');
+        const sunAndSky = document.querySelector('#daylight [type=checkbox]');
+        if (date !== undefined) enter(days, date);
+        if (minutes !== undefined) enter(clock, minutes);
+        if (daylight !== undefined && sunAndSky.checked !== daylight) sunAndSky.click();
+        if (press) [...document.querySelectorAll('#controls button')].find((one) => one.textContent === press).click();
         if (mode) document.querySelector(`[name=mode][value=${mode}]`).click();
         if (save) {
             document.querySelector('#lamps form input').value = save;
@@ -73,11 +80,14 @@ async function probe(points, steps) {
         if (on !== undefined && row.querySelector('[type=checkbox]').checked !== on)
             row.querySelector('[type=checkbox]').click();
     }
+    const daylight = () => ({ ...document.getElementById('daylight')?.dataset,
+        texts: [...document.querySelectorAll('#daylight output')].map((one) => one.textContent) });
     // Time to work a control and have the canvas drawn.
     async function timed(step) {
         await frame();
         const before = performance.now();
         work(step);
+        if (step.wait) await pause(step.wait);
         await frame(); // of the page
         shown();
         return performance.now() - before;
@@ -89,7 +99,8 @@ async function probe(points, steps) {
         for (const step of [{}, ...steps]) {
             const milliseconds = await timed(step);
             const kept = reading.textContent; // of the last point, which has not been pointed at again
-            found.steps.push({ milliseconds, colours: shown(), kept, readings: points.map(readAt) });
+            found.steps.push({ milliseconds, colours: shown(), kept, readings: points.map(readAt),
+                daylight: daylight() });
             await pause(250); // until the address has followed
             Object.assign(found.steps.at(-1), { hash: location.hash, rows: rows().map(shownOf), presets: presets() });
         }

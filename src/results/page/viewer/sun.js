@@ -4,37 +4,55 @@ import * as THREE from 'three';
 
 const mapSides = { small: 2048, large: 4096 }; // of shadow maps [texels]
 const large = 20; // diagonal of a scene from which shadow maps are large [m]
-const blur = 0.75; // radius of the filter of shadow maps [texels]
-// The filter, its bilinear lookups included, reaches two texels. Surfaces are offset as far along their normals.
+// Four bilinear lookups at corners of a square, which reach 1.5 texels to each side. Less than `least` counts as dark,
+// so that shadows are about a texel larger: else light would leak into the corners of rooms, along outlines of walls.
+const filter = { reach: 0.5, least: 0.75 }; // [texels], of 1
+// Surfaces are offset along their normals farther than the filter reaches.
 const offset = { normal: 2, depth: 0.5 }; // [texels]
 const layers = { opaque: 1, glass: 2 }; // that shadow maps show; cameras show 0
 const paneReach = 0.1; // distance within which panes of glass belong together [m]
 const triangles = { quick: 20000, probed: 8 }; // scene in which 64 rays take no time to speak of; samples of a pane
 const rayOffset = 1e-5; // relative to the diagonal
 
+const filtered = `vec2 step = ${filter.reach} / shadowMapSize;
+    vec4 found = vec4( texture( shadowMap, shadowCoord.xyz + vec3( step, 0.0 ) ),
+        texture( shadowMap, shadowCoord.xyz + vec3( step.x, - step.y, 0.0 ) ),
+        texture( shadowMap, shadowCoord.xyz + vec3( - step.x, step.y, 0.0 ) ),
+        texture( shadowMap, shadowCoord.xyz - vec3( step, 0.0 ) ) );
+    shadow = max( dot( found, vec4( 0.25 ) ) - ${filter.least}, 0.0 ) / ${1 - filter.least};`;
+
+// At rims, pixels take the shadow of what they cover of a surface, not of a place beyond it, which may be in the sun.
+const coordinate = 'varying vec4 vDirectionalShadowCoord';
+const atRims = [coordinate, `centroid ${coordinate}`];
+const facingSun = ['vec4 shadowWorldPosition;', `vec4 shadowWorldPosition;
+    #if defined( USE_SHADOWMAP ) && NUM_DIR_LIGHT_SHADOWS > 0
+        mat4 toSun = directionalShadowMatrix[ 0 ]; // its depth increases away from the sun
+        if ( dot( vec3( toSun[ 0 ].z, toSun[ 1 ].z, toSun[ 2 ].z ), shadowWorldNormal ) > 0.0 )
+            shadowWorldNormal = - shadowWorldNormal;
+    #endif`];
+const reflected = `void reflectSun( const in IncidentLight sun, const in vec3 position, const in vec3 normal,
+    const in vec3 view, const in vec3 coat, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+    ReflectedLight own = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+    vec3 irradiance = saturate( dot( normal, sun.direction ) ) * sun.color;
+    RE_IndirectDiffuse( irradiance, position, normal, view, coat, material, own );
+    reflectedLight.directDiffuse += own.indirectDiffuse;
+}
+#undef RE_Direct
+#define RE_Direct reflectSun`;
+
+// A shader whose part of three.js is edited: pairs of what is replaced, and by what.
+const edited = (shader, part, ...edits) => shader.replace(`#include <${part}>`,
+    () => edits.reduce((text, [from, to]) => text.replace(from, () => to), THREE.ShaderChunk[part]));
+
 /**
- * Extends the shader of a material. Direct sun is reflected as light of the lightmap is, without gloss; and shadow maps
- * are looked up on the side of a surface that faces the sun.
+ * Extends the shader of a material. Direct sun is reflected as light of the lightmap is, without gloss; shadow maps are
+ * looked up on the side of a surface that faces the sun.
  */
 export function shadeBySun(shader) {
-    shader.vertexShader = shader.vertexShader.replace('#include <shadowmap_vertex>',
-        THREE.ShaderChunk.shadowmap_vertex.replace('vec4 shadowWorldPosition;', `vec4 shadowWorldPosition;
-        #if defined( USE_SHADOWMAP ) && NUM_DIR_LIGHT_SHADOWS > 0
-            mat4 toSun = directionalShadowMatrix[ 0 ]; // its depth increases away from the sun
-            if ( dot( vec3( toSun[ 0 ].z, toSun[ 1 ].z, toSun[ 2 ].z ), shadowWorldNormal ) > 0.0 )
-                shadowWorldNormal = - shadowWorldNormal;
-        #endif`));
-    shader.fragmentShader = shader.fragmentShader.replace('#include <lights_physical_pars_fragment>',
-        `#include <lights_physical_pars_fragment>
-        void reflectSun( const in IncidentLight sun, const in vec3 position, const in vec3 normal, const in vec3 view,
-            const in vec3 coat, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
-            ReflectedLight own = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
-            vec3 irradiance = saturate( dot( normal, sun.direction ) ) * sun.color;
-            RE_IndirectDiffuse( irradiance, position, normal, view, coat, material, own );
-            reflectedLight.directDiffuse += own.indirectDiffuse;
-        }
-        #undef RE_Direct
-        #define RE_Direct reflectSun`);
+    shader.vertexShader = edited(edited(shader.vertexShader, 'shadowmap_pars_vertex', atRims),
+        'shadowmap_vertex', facingSun);
+    shader.fragmentShader = edited(edited(shader.fragmentShader, 'shadowmap_pars_fragment', atRims,
+        [/vec2 texelSize[^;]*;[^]*?\) \* 0\.2;/, filtered]), 'lights_physical_pars_fragment', [/$/, reflected]);
 }
 
 /** Transmitted share of light by channel; null if the material is opaque. */
@@ -70,8 +88,9 @@ function occluderOf(mesh) {
     return occluder;
 }
 
-const multiplied = (hits) => hits.reduce((passed, hit) =>
-    hit.object.passes(hit).map((value, channel) => value * passed[channel]), [1, 1, 1]);
+// Transmitted share by channel along a ray. Both sides of a surface may be faces of their own, in one place.
+const passing = (hits, apart) => hits.filter((hit, i) => i === 0 || hit.distance - hits[i - 1].distance > apart)
+    .reduce((passed, hit) => hit.object.passes(hit).map((value, channel) => value * passed[channel]), [1, 1, 1]);
 
 export class Sun {
     /** Adds its lights to a scene. Materials must be those of the scene's file. */
@@ -112,7 +131,6 @@ export class Sun {
         shadow.autoUpdate = false;
         shadow.needsUpdate = true;
         shadow.mapSize.set(side, side);
-        shadow.radius = blur;
         shadow.camera.layers.disableAll();
         for (const layer of shown) shadow.camera.layers.enable(layer);
         scene.add(light, light.target);
@@ -133,7 +151,7 @@ export class Sun {
                 const middle = a.add(b).add(c).divideScalar(3);
                 this.caster.set(middle.addScaledVector(normal.normalize(), -paneReach), normal);
                 this.caster.far = 2 * paneReach;
-                multiplied(this.caster.intersectObjects(glass, false)).forEach((value, channel) => {
+                passing(this.caster.intersectObjects(glass, false), rayOffset * this.size).forEach((value, channel) => {
                     sum[channel] += weight * value;
                 });
                 area += weight;
@@ -180,7 +198,7 @@ export class Sun {
         if (this.lux === 0 || cosine <= 0) return [0, 0, 0];
         this.caster.set(point.clone().addScaledVector(normal, rayOffset * this.size), this.direction);
         this.caster.far = Infinity;
-        return multiplied(this.caster.intersectObjects(this.occluders, false))
+        return passing(this.caster.intersectObjects(this.occluders, false), rayOffset * this.size)
             .map((value) => this.lux * cosine * value);
     }
 }
