@@ -20,6 +20,7 @@ void read_solution(Input input);    ///< solution.exr
 void read_report(Input input);      ///< report.json
 void read_states(Input input);      ///< states.json
 void read_lamps(Input input);       ///< lamps.json
+void read_daylight(Input input);    ///< daylight.json
 void read_matrix(Input input);      ///< scene.lumelmat
 void read_links(Input input);       ///< scene.lumellinks
 void read_checkpoint(Input input);  ///< state of a solve
@@ -31,13 +32,11 @@ struct Reader {
     void (*read)(Input);
 };
 inline constexpr Reader kReaders[] = {
-    {"glb", read_glb},         {"rewrite", rewrite_glb},
-    {"image", read_image},     {"hdr", read_hdr},
-    {"exr", read_exr},         {"ies", read_ies},
-    {"weather", read_weather}, {"solution", read_solution},
-    {"report", read_report},   {"states", read_states},
-    {"lamps", read_lamps},     {"matrix", read_matrix},
-    {"links", read_links},     {"checkpoint", read_checkpoint},
+    {"glb", read_glb},         {"rewrite", rewrite_glb},    {"image", read_image},
+    {"hdr", read_hdr},         {"exr", read_exr},           {"ies", read_ies},
+    {"weather", read_weather}, {"solution", read_solution}, {"report", read_report},
+    {"states", read_states},   {"lamps", read_lamps},       {"daylight", read_daylight},
+    {"matrix", read_matrix},   {"links", read_links},       {"checkpoint", read_checkpoint},
     {"script", read_script},   {"text", read_text},
 };
 

@@ -1,7 +1,7 @@
-// A ground with a box and a pane of glass, and its daylight of known functions:
+// A ground with a box, a pane of glass and a plate of which half is cut out, and its daylight of known functions:
 //     node daylight_scene.mjs scene FILE.gltf    writes the scene
-//     node daylight_scene.mjs light FOLDER       writes lightmap.exr, solution.exr, daylight.json and its maps, and sets
-//                                                the first view
+//     node daylight_scene.mjs light FOLDER       writes lightmap.exr, solution.exr, daylight.json and its maps, and
+//                                                sets the first view
 // Its sun is brighter than its sky, so that errors of either show.
 
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -13,18 +13,25 @@ export const side = 256;
 const glass = { color: [0.5, 1, 0.75], transmission: 0.8 };
 export const tint = glass.color.map((value) => value * glass.transmission);
 
+// A PNG of two white texels, the first transparent.
+const halfCut = 'iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAYAAAD0In+KAAAAEElEQVR4nGP4//8/AxD/BwAe6gb6OStlagAAAABJRU5ErkJggg==';
+
 const quads = {
     ground: [[[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-4, 0, -4]]],
-    box: [[[-0.5, 1, 2], [0.5, 1, 2], [0.5, 1, 1], [-0.5, 1, 1]], [[-0.5, 0, 2], [0.5, 0, 2], [0.5, 1, 2], [-0.5, 1, 2]],
+    box: [[[-0.5, 1, 2], [0.5, 1, 2], [0.5, 1, 1], [-0.5, 1, 1]],
+        [[-0.5, 0, 2], [0.5, 0, 2], [0.5, 1, 2], [-0.5, 1, 2]],
         [[0.5, 0, 1], [-0.5, 0, 1], [-0.5, 1, 1], [0.5, 1, 1]], [[0.5, 0, 2], [0.5, 0, 1], [0.5, 1, 1], [0.5, 1, 2]],
         [[-0.5, 0, 1], [-0.5, 0, 2], [-0.5, 1, 2], [-0.5, 1, 1]]],
+    plate: [[[2.6, 0.5, -1.7], [3.4, 0.5, -1.7], [3.4, 0.5, -2.5], [2.6, 0.5, -2.5]]], // to x = 3 it is cut out
     pane: [[[0, 0.2, -0.5], [0, 0.2, -2.5], [0, 2, -2.5], [0, 2, -0.5]]],
 };
 
-/** Points that the first view shows: in the open, behind the box from +x and from -x, behind the glass from both sides,
- *  on the box, and on its wall towards +z. */
+/**
+ * Points that the first view shows: in the open, behind the box from +x and from -x, behind the glass from both sides,
+ * on the box, on its wall towards +z, and, from +x, behind the part of the plate that is cut out and behind the other.
+ */
 export const places = [[2, 0, 0], [-0.9, 0, 1.5], [0.9, 0, 1.5], [-0.6, 0, -1.8], [0.6, 0, -1.8], [0, 1, 1.5],
-    [0.1, 0.5, 2]];
+    [0.1, 0.5, 2], [2.425, 0, -2.1], [2.825, 0, -2.1]];
 const facing = places.map((_, i) => i === 6 ? [0, 0, 1] : [0, 1, 0]);
 
 const view = { eye: [0, 7, 7], direction: [0, -Math.SQRT1_2, -Math.SQRT1_2], vertical_fov: 50 };
@@ -35,10 +42,12 @@ const dot = (a, b) => a.reduce((sum, value, i) => sum + value * b[i], 0);
 export function positionOf(place) {
     const from = place.map((value, i) => value - view.eye[i]), depth = dot(from, view.direction);
     const half = Math.tan(view.vertical_fov * Math.PI / 360);
-    return [0.5 + from[0] / depth / half / aspect / 2, 0.5 - dot(from, [0, Math.SQRT1_2, -Math.SQRT1_2]) / depth / half / 2];
+    const up = dot(from, [0, Math.SQRT1_2, -Math.SQRT1_2]);
+    return [0.5 + from[0] / depth / half / aspect / 2, 0.5 - up / depth / half / 2];
 }
 
-const wave = (k, x, y) => 1.5 + Math.cos(2 * Math.PI * (k + 1) * (x + 0.5) / side) * Math.cos(2 * Math.PI * (y + 0.5) / side);
+const cosine = (at) => Math.cos(2 * Math.PI * (at + 0.5) / side);
+const wave = (k, x, y) => 1.5 + cosine((k + 1) * (x + 0.5) - 0.5) * cosine(y);
 const levels = [900, 500, 700]; // of the maps of daylight [lx]
 const colour = [1, 0.9, 0.8];
 const luxOf = (rgb) => dot(rgb, [0.2126, 0.7152, 0.0722]);
@@ -73,6 +82,8 @@ function passing([x, y, z], sun) {
         return way > 1e-6 && across > low && across < high && up > bottom && up < top;
     };
     if (meets(0, 0, 2, [-2.5, -0.5], [0.2, 2])) return luxOf(tint);
+    const toPlate = (0.5 - y) / sun[1], across = x + toPlate * sun[0], along = z + toPlate * sun[2];
+    if (toPlate > 0 && across > 3 && across < 3.4 && along > -2.5 && along < -1.7) return 0;
     const inBox = [-0.5, 0.5].some((at) => meets(0, at, 2, [1, 2], [0, 1]))
         || [1, 2].some((at) => meets(2, at, 0, [-0.5, 0.5], [0, 1]));
     return inBox ? 0 : 1;
@@ -101,21 +112,31 @@ function writeScene(file) {
         return accessors.push({ bufferView: views.length - 1, ...accessor }) - 1;
     };
     Object.entries(quads).forEach(([name, faces], material) => {
-        const corners = faces.flat(), bounds = (pick) => [0, 1, 2].map((axis) => pick(...corners.map((at) => at[axis])));
+        const corners = faces.flat();
+        const bounds = (pick) => [0, 1, 2].map((axis) => pick(...corners.map((at) => at[axis])));
         const places = store(Buffer.from(new Float32Array(corners.flat()).buffer), { componentType: 5126, type: 'VEC3',
             count: corners.length, min: bounds(Math.min), max: bounds(Math.max) });
         const indices = faces.flatMap((_, i) => [0, 1, 2, 0, 2, 3].map((corner) => 4 * i + corner));
         const index = store(Buffer.from(new Uint32Array(indices).buffer), { componentType: 5125, type: 'SCALAR',
             count: indices.length });
-        meshes.push({ name, primitives: [{ attributes: { POSITION: places }, indices: index, material }] });
+        const corner = faces.flatMap(() => [[0, 0], [1, 0], [1, 1], [0, 1]]);
+        const uvs = store(Buffer.from(new Float32Array(corner.flat()).buffer), { componentType: 5126, type: 'VEC2',
+            count: corner.length });
+        const attributes = { POSITION: places, TEXCOORD_0: uvs };
+        meshes.push({ name, primitives: [{ attributes, indices: index, material }] });
     });
     const white = { pbrMetallicRoughness: { baseColorFactor: [0.8, 0.8, 0.8, 1], metallicFactor: 0 } };
     const materials = [{ name: 'ground', ...white }, { name: 'box', ...white },
-        { name: 'glass', doubleSided: true, pbrMetallicRoughness: { baseColorFactor: [...glass.color, 1], metallicFactor: 0 },
+        { name: 'plate', doubleSided: true, alphaMode: 'MASK',
+            pbrMetallicRoughness: { ...white.pbrMetallicRoughness, baseColorTexture: { index: 0 } } },
+        { name: 'glass', doubleSided: true,
+            pbrMetallicRoughness: { baseColorFactor: [...glass.color, 1], metallicFactor: 0 },
             extensions: { KHR_materials_transmission: { transmissionFactor: glass.transmission } } }];
     writeFileSync(file, JSON.stringify({ asset: { version: '2.0' }, extensionsUsed: ['KHR_materials_transmission'],
         scene: 0, scenes: [{ nodes: meshes.map((_, i) => i) }], nodes: meshes.map(({ name }, mesh) => ({ name, mesh })),
-        meshes, materials, accessors, bufferViews: views, buffers: [{ byteLength: offset,
+        meshes, materials, textures: [{ source: 0, sampler: 0 }], samplers: [{ magFilter: 9728, minFilter: 9728 }],
+        images: [{ uri: `data:image/png;base64,${halfCut}` }], accessors, bufferViews: views,
+        buffers: [{ byteLength: offset,
             uri: `data:application/octet-stream;base64,${Buffer.concat(all).toString('base64')}` }] }));
 }
 

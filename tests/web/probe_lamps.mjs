@@ -1,5 +1,5 @@
-// Opens a page of lumel report with sliders of lamps or of time, works them, and prints what it shows after each step, as
-// JSON:
+// Opens a page of lumel report with sliders of lamps or of the time, works them, and prints what it shows after each
+// step, as JSON:
 //     node probe_lamps.mjs page.html --browser-module FILE --steps FILE [--hash TEXT] [--points X,Y …]
 // steps: [{ press: BUTTON } | { lamp: NAME, factor: 0…2, on: BOOLEAN, colour: "#rrggbb" } | { save: PRESET }
 //     | { mode: NAME } | { date: PLACE, minutes: NUMBER } | { daylight: BOOLEAN } | { stops: EXPOSURE }

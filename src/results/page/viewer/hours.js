@@ -62,8 +62,8 @@ export class Hours {
     }
 
     /**
-     * Light on a day at a time: { weights, mean, lux, sun }, lux by direct sun from the direction `sun`. It is that of an
-     * hour in its middle, and linear between; hours that are not listed are dark.
+     * Light on a day at a time: { weights, mean, lux, sun }, lux by direct sun from the direction `sun`. It is that of
+     * an hour in its middle, and linear between; hours that are not listed are dark.
      */
     at(day, minutes) {
         const time = minutes / minutesOfHour - 0.5, hour = Math.floor(time), part = time - hour;

@@ -117,7 +117,8 @@ function surfaceText({ bake: { map, lamps, sun }, hit, normal }, known) {
     const { mean, uniformity } =
         lightOver(known.surface, map, inSun && sun.quick ? (place) => sun.at(place, normal) : null);
     Object.assign(byId('reading').dataset, { mean, uniformity });
-    return `; its surface${inSun && !sun.quick ? ' without direct sun' : ''}: mean ${luxText(mean)}, least / mean ${uniformity.toFixed(2)}`;
+    const without = inSun && !sun.quick ? ' without direct sun' : '';
+    return `; its surface${without}: mean ${luxText(mean)}, least / mean ${uniformity.toFixed(2)}`;
 }
 
 // Shows the light under the mouse below the scene. Returns a function that reads it again.
@@ -189,7 +190,7 @@ function addLights(stage, readAgain, drawAtlases, room) {
     const dimmed = stage.bakes.filter(({ lamps }) => lamps.length > 0);
     const daylit = stage.bakes.filter(({ daylight }) => daylight);
     if (dimmed.length + daylit.length === 0) {
-        say('Neither lamps nor time can be set: this browser cannot draw into textures of floating-point numbers.');
+        say('Neither lamps nor the time can be set: this browser cannot draw into textures of floating-point numbers.');
         return;
     }
     let later = 0;

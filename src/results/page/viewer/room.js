@@ -10,7 +10,8 @@ const letterWidth = 0.62; // of a digit, relative to its size
 const widestNumber = 0.85; // of a number, relative to its cell
 const brightPlace = 0.6; // on the scale: numbers are black from here on
 const notComputed = 'Not computed: glare (UGR), colour rendering, cylindrical illuminance, walls and ceiling.';
-const daylight = ' The light of sky and sun is counted like that of lamps.';
+const daylightCounts = ' The light of sky and sun is counted like that of lamps.';
+const notOfHours = ' Daylight of the time that is set is not counted.';
 
 // Verdicts are of rounded values, as in the table.
 const roundedLux = (lux) => lux >= 100 ? Math.round(lux) : Number(lux.toPrecision(3));
@@ -51,7 +52,7 @@ function headerOf({ report, room }) {
 
 export class Room {
     /** room: by room_data(). lamps: of the bake, in the order of its values; none: all light together. */
-    constructor({ report, room, lamps }) {
+    constructor({ report, room, lamps, daylight }) {
         Object.assign(this, { room, lamps: lamps?.list.filter(({ kind }) => kind !== 'daylight') ?? [] });
         [this.results, this.scenes, this.list] = [1, 2, 3].map(() => element('table'));
         this.plan = drawn('svg', { role: 'img', 'aria-label': 'maintained illuminance in the room' });
@@ -63,7 +64,8 @@ export class Room {
             element('h3', {}, 'Maintained illuminance [lx]'), this.plan,
             ...(this.lamps.length > 0 ? [element('h3', {}, 'Light scenes'), this.scenes,
                 element('h3', {}, 'Luminaires'), this.list] : []),
-            element('p', { class: 'hint' }, notComputed, room.has_daylight ? daylight : ''));
+            element('p', { class: 'hint' }, notComputed, room.has_daylight ? daylightCounts : '',
+                daylight ? notOfHours : ''));
         this.show(new Map(), new Map());
     }
 

@@ -63,7 +63,7 @@ function tintOf({ transmission = 0, color, transparent, opacity }) {
 
 // Alpha of a texture's texels, as a function of texture coordinates; null if a page cannot read them.
 function alphaOf(texture) {
-    if (!(texture?.image instanceof ImageBitmap)) return null;
+    if (![ImageBitmap, HTMLImageElement].some((kind) => texture?.image instanceof kind)) return null;
     const { width, height } = texture.image;
     const context = new OffscreenCanvas(width, height).getContext('2d');
     context.drawImage(texture.image, 0, 0);
@@ -120,7 +120,6 @@ export class Sun {
         mesh.layers.enable(occluder.isGlass ? layers.glass : layers.opaque);
         material.shadowSide = THREE.DoubleSide; // Lumel's surfaces stop light from both sides
         material.onBeforeCompile = shadeBySun;
-        material.needsUpdate = true;
     }
 
     lightOn(scene, shown) {
