@@ -106,7 +106,7 @@ export class Sun {
         this.quick = this.occluders.reduce((sum, { geometry: { index, attributes } }) =>
             sum + (index ?? attributes.position).count / 3, 0) <= triangles.quick;
         const glass = this.occluders.filter(({ isGlass }) => isGlass);
-        this.tint = glass.length > 0 ? this.tintOf(glass) : [0, 0, 0];
+        this.tint = glass.length > 0 ? this.tintOfPanes(glass) : [0, 0, 0];
         // Glass stops the first light; the second, which has its colour, passes.
         this.lights = [[layers.opaque, layers.glass], [layers.opaque]].slice(0, glass.length > 0 ? 2 : 1)
             .map((shown) => this.lightOn(scene, shown));
@@ -137,7 +137,7 @@ export class Sun {
     }
 
     // Mean transmitted share of panes of glass: of the light through all surfaces of a pane.
-    tintOf(glass) {
+    tintOfPanes(glass) {
         const sum = [0, 0, 0];
         let area = 0;
         for (const { geometry: { index, attributes: { position } }, matrixWorld } of glass) {
