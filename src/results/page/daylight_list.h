@@ -10,7 +10,6 @@
 
 namespace lumel {
 
-inline constexpr const char* kDaylightFile = "daylight.json";
 inline constexpr std::size_t kMaxDaylightMaps = 48;
 
 /// An hour with light. Its illuminance without direct sun is the weighted sum of the maps.
