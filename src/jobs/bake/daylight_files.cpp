@@ -40,9 +40,15 @@ std::vector<Image> finished(const SolveScene& prepared, const DaylightMaps& maps
     return std::move(found.layers);
 }
 
-DaylightTransportOptions options_of(std::uint32_t seed)
+DaylightTransportOptions options_of(std::uint32_t seed, std::size_t lumels)
 {
-    return {.seed = seed, .asked_by = "--daylight"};
+    // Means of many lumels decide on the hours: the more there are, the fewer rays each needs.
+    constexpr std::size_t kRaysOfAll = 3'000'000;
+    DaylightTransportOptions options{.seed = seed, .asked_by = "--daylight"};
+    for (std::uint32_t* rays : {&options.sky_rays, &options.link_rays})
+        for (int halvings = 0; halvings < 2 && *rays * lumels > kRaysOfAll; ++halvings)
+            *rays /= 2;
+    return options;
 }
 
 Json hours_of(const WantedDaylight& wanted, const DaylightMaps& maps)
@@ -77,7 +83,7 @@ WantedDaylight::WantedDaylight(const std::string& weather_file)
 
 void WantedDaylight::check_memory(std::size_t lumels) const
 {
-    DaylightTransport::check_memory(lumels, year_.sun_places().size(), options_of(1));
+    DaylightTransport::check_memory(lumels, year_.sun_places().size(), options_of(1, lumels));
 }
 
 std::optional<DaylightMaps> make_daylight_maps(const WantedDaylight& wanted,
@@ -87,8 +93,9 @@ std::optional<DaylightMaps> make_daylight_maps(const WantedDaylight& wanted,
     stages.begin("daylight");
     std::optional<DaylightMaps> maps;
     if (!stages.stopped())
-        maps = daylight_maps(prepared, wanted.year(), options_of(seed),
-                             [&](double part) { return stages.progress(part); });
+        maps =
+            daylight_maps(prepared, wanted.year(), options_of(seed, prepared.lumels.lumels.size()),
+                          [&](double part) { return stages.progress(part); });
     if (!maps)
         stages.tell("the bake was stopped before the maps of daylight were made; --resume makes "
                     "them");

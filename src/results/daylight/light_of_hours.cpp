@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMappedPerStep = 2048, kMappedPerTask = 64;
 /// Rays of a lumel to the sky, to each sun, and of its links.
-constexpr std::uint32_t kToSky = 512, kToSun = 16, kOfLinks = 384;
+constexpr std::uint32_t kToSky = 512, kToSun = 4, kOfLinks = 384;
 /// Shares of the work, for the progress bar only.
 constexpr double kSkyPart = 0.4, kTracedPart = 0.6;
 
