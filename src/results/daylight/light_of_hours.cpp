@@ -22,16 +22,16 @@ constexpr std::uint32_t kToSky = 512, kToSun = 4, kOfLinks = 384;
 constexpr double kSkyPart = 0.4, kTracedPart = 0.6;
 
 /// Direct light [lx].
-struct DirectLight {
+struct DirectOfHours {
     std::vector<Estimates> sky, sun;  ///< [hours][N]
     std::array<Estimates, 2> halves;  ///< [N] of the sky in a typical hour, by half of the rays
 };
 
 /// Traces it.
-class DirectRays {
+class RaysOfHours {
 public:
-    DirectRays(const SolveScene& scene, const DaylightYear& year,
-               std::span<const std::size_t> hours, std::uint32_t seed)
+    RaysOfHours(const SolveScene& scene, const DaylightYear& year,
+                std::span<const std::size_t> hours, std::uint32_t seed)
         : year_(year),
           hours_(hours),
           rays_(scene, kToSky, seed)
@@ -51,7 +51,7 @@ public:
     /// Of each hour in a typical one.
     float share(std::size_t hour) const { return shares_[hour]; }
 
-    void find(std::size_t lumel, DirectLight& light) const
+    void find(std::size_t lumel, DirectOfHours& light) const
     {
         rays_.visit(lumel,
                     [&](std::uint32_t k, const glm::vec3& direction, const glm::vec3& found) {
@@ -78,12 +78,12 @@ private:
 };
 
 /// Empty if progress returns false.
-std::optional<DirectLight> trace(const SolveScene& scene, const DirectRays& rays, std::size_t hours,
-                                 const std::function<bool(double)>& progress)
+std::optional<DirectOfHours> trace(const SolveScene& scene, const RaysOfHours& rays,
+                                   std::size_t hours, const std::function<bool(double)>& progress)
 {
     const std::size_t lumels = scene.lumels.lumels.size();
     const Estimates none(lumels, glm::vec3(0.0f));
-    DirectLight light{
+    DirectOfHours light{
         std::vector<Estimates>(hours, none), std::vector<Estimates>(hours, none), {none, none}};
     const bool done = parallel_steps(
         lumels, kMappedPerStep, kMappedPerTask,
@@ -97,7 +97,7 @@ std::optional<DirectLight> trace(const SolveScene& scene, const DirectRays& rays
 }
 
 /// Replaces light of the sun by reflected light of sky and sun.
-void reflect(const LinkRadiosity& links, std::size_t first, DirectLight& light)
+void reflect(const LinkRadiosity& links, std::size_t first, DirectOfHours& light)
 {
     const std::size_t lumels = light.sky.front().size();
     const std::size_t width = std::min(kLampLanes, light.sky.size() - first);
@@ -118,8 +118,8 @@ std::optional<LightOfHours> light_of_hours(const SolveScene& scene, const Daylig
                                            const std::function<bool(double)>& progress)
 {
     const std::size_t lumels = scene.lumels.lumels.size();
-    const DirectRays rays(scene, year, hours, seed);
-    std::optional<DirectLight> light =
+    const RaysOfHours rays(scene, year, hours, seed);
+    std::optional<DirectOfHours> light =
         trace(scene, rays, hours.size(), [&](double done) { return progress(kSkyPart * done); });
     if (!light)
         return std::nullopt;
