@@ -3,7 +3,7 @@
 //     node probe_lamps.mjs page.html --browser-module FILE --steps FILE [--hash TEXT] [--points X,Y …]
 // steps: [{ press: BUTTON } | { lamp: NAME, factor: 0…2, on: BOOLEAN, colour: "#rrggbb" } | { save: PRESET }
 //     | { mode: NAME } | { date: PLACE, minutes: NUMBER } | { daylight: BOOLEAN } | { stops: EXPOSURE }
-//     | { wait: MILLISECONDS }, …]. points: of the scene's canvas, as parts of its width and height.
+//     | { hash: ADDRESS } | { wait: MILLISECONDS }, …]. points: of the scene's canvas, as parts of its width and height.
 // Exits with 0, or with 1 and a sentence.
 
 import { readFile } from 'node:fs/promises';
@@ -58,7 +58,7 @@ async function probe(points, steps) {
         input.value = value;
         input.dispatchEvent(new Event(event));
     };
-    function work({ press, lamp, factor, on, colour, save, mode, date, minutes, daylight, stops }) {
+    function work({ press, lamp, factor, on, colour, save, mode, date, minutes, daylight, stops, hash }) {
         if (!press && !mode && !save && lamp === undefined) { // draws the scene alone
             const exposure = document.getElementById('exposure');
             enter(exposure, stops ?? exposure.value);
@@ -69,6 +69,7 @@ async function probe(points, steps) {
         if (minutes !== undefined) enter(clock, minutes);
         if (daylight !== undefined && sunAndSky.checked !== daylight) sunAndSky.click();
         if (press) [...document.querySelectorAll('#controls button')].find((one) => one.textContent === press).click();
+        if (hash) location.hash = hash;
         if (mode) document.querySelector(`[name=mode][value=${mode}]`).click();
         if (save) {
             document.querySelector('#lamps form input').value = save;

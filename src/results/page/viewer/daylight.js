@@ -33,7 +33,10 @@ export class Daylight {
         this.on = element('input', { type: 'checkbox' });
         this.on.addEventListener('change', () => this.change({ on: this.on.checked }));
         this.play = element('button', { type: 'button' });
-        this.play.addEventListener('click', () => this.playing ? this.pause() : this.start());
+        this.play.addEventListener('click', () => {
+            if (this.playing) this.pause();
+            else this.start();
+        });
         this.date = labelled('date', { min: 0, max: this.days.length - 1, step: 1 },
             (place) => this.change({ day: this.days[place] }));
         this.clock = labelled('time', { min: 0, max: minutesOfDay, step },
@@ -44,11 +47,12 @@ export class Daylight {
                 ...(bakes.some(({ lamps }) => lamps.length > 0) ? [] : address.copyButton())),
             this.date.node, this.clock.node, this.facts);
         address.read(({ time = '' }) => {
-            const [text, state] = time.split(',');
-            const { day, minutes } = readTime(text) ?? atFirst;
-            this.pause();
-            this.state = { day: this.days.includes(day) ? day : atFirst.day, minutes, on: state !== off };
+            const [text, state] = time.split(','), read = readTime(text);
+            const exists = this.days.includes(read?.day), { day, minutes } = exists ? read : atFirst;
+            this.stop();
+            this.state = { day, minutes, on: state !== off };
             this.show();
+            if (text && !exists) this.write();
         });
     }
 
@@ -65,16 +69,23 @@ export class Daylight {
         this.show();
     }
 
-    pause() {
-        if (!this.playing) return;
+    stop() {
         cancelAnimationFrame(this.playing);
         this.playing = 0;
+    }
+
+    pause() {
+        this.stop();
         this.change({ minutes: step * Math.floor(this.state.minutes / step) });
     }
 
     change(part) {
         Object.assign(this.state, part);
         this.show();
+        this.write();
+    }
+
+    write() {
         const { day, minutes, on } = this.state;
         const text = `${timeText(day, minutes)}${on ? '' : `,${off}`}`;
         this.address.write({ time: text === timeText(atFirst.day, atFirst.minutes) ? '' : text });

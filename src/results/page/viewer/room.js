@@ -62,7 +62,7 @@ export class Room {
         this.node = element('section', { id: 'room' },
             element('h2', {}, `Room by EN 12464-1:2021: ${room.title}`), headerOf({ report, room }), this.results,
             element('h3', {}, 'Maintained illuminance [lx]'), this.plan,
-            ...(this.lamps.length > 0 ? [element('h3', {}, 'Light scenes'), this.scenes,
+            ...(this.lamps.some(({ kind }) => kind !== 'bake') ? [element('h3', {}, 'Light scenes'), this.scenes,
                 element('h3', {}, 'Luminaires'), this.list] : []),
             element('p', { class: 'hint' }, notComputed, room.has_daylight ? daylightCounts : '',
                 daylight ? notOfHours : ''));

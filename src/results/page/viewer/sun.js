@@ -11,7 +11,7 @@ const filter = { reach: 0.5, least: 0.75 }; // [texels], of 1
 const offset = { normal: 2, depth: 0.5 }; // [texels]
 const layers = { opaque: 1, glass: 2 }; // that shadow maps show; cameras show 0
 const paneReach = 0.1; // distance within which panes of glass belong together [m]
-const triangles = { quick: 20000, probed: 8 }; // scene in which 64 rays take no time to speak of; samples of a pane
+const triangles = { quick: 4000, probed: 8 }; // scene in which 64 rays take 20 ms at most; samples of a pane
 const rayOffset = 1e-5; // relative to the diagonal
 
 const filtered = `vec2 step = ${filter.reach} / shadowMapSize;
@@ -61,17 +61,27 @@ function tintOf({ transmission = 0, color, transparent, opacity }) {
     return transparent && opacity < 1 ? Array(3).fill(1 - opacity) : null;
 }
 
+const alphas = new WeakMap(); // of images that textures share
+
+// Alpha of an image, a byte for each texel.
+function bytesOf(image) {
+    if (!alphas.has(image)) {
+        const { width, height } = image, context = new OffscreenCanvas(width, height).getContext('2d');
+        context.drawImage(image, 0, 0);
+        const { data } = context.getImageData(0, 0, width, height);
+        alphas.set(image, Uint8Array.from({ length: width * height }, (_, i) => data[4 * i + 3]));
+    }
+    return alphas.get(image);
+}
+
 // Alpha of a texture's texels, as a function of texture coordinates; null if a page cannot read them.
 function alphaOf(texture) {
     if (![ImageBitmap, HTMLImageElement].some((kind) => texture?.image instanceof kind)) return null;
-    const { width, height } = texture.image;
-    const context = new OffscreenCanvas(width, height).getContext('2d');
-    context.drawImage(texture.image, 0, 0);
-    const { data } = context.getImageData(0, 0, width, height);
+    const { width, height } = texture.image, alpha = bytesOf(texture.image);
     const texel = (part, count) => Math.min(Math.floor((part - Math.floor(part)) * count), count - 1);
     return (uv) => {
         const { x, y } = texture.transformUv(uv.clone());
-        return data[4 * (texel(y, height) * width + texel(x, width)) + 3] / 255;
+        return alpha[texel(y, height) * width + texel(x, width)] / 255;
     };
 }
 

@@ -4,7 +4,7 @@ import * as THREE from 'three';
 import { luxOf } from './colours.js';
 
 const samples = 1024; // over the surface
-const mostRays = 64;
+const maxRays = 64; // to the sun
 const samePlane = { cosine: 0.9995, metres: 0.002 };
 // The sequence of Roberts in the unit square [Rob18].
 const steps = [0.7548776662466927, 0.5698402909980532];
@@ -38,25 +38,26 @@ function spread([a, b, c], count, lightMap) {
     });
 }
 
-// Parts of the surface for which rays to the sun are cast.
-function fewer({ points, areas }) {
-    const step = Math.max(Math.ceil(points.length / mostRays), 1), kept = (_, i) => i % step === 0;
-    return { points: points.filter(kept), areas: areas.filter(kept) };
+// Points over triangles, by area, with their areas.
+function spreadOver(triangles, areasOfTriangles, count, lightMap) {
+    const whole = areasOfTriangles.reduce((sum, area) => sum + area, 0);
+    const points = [], areas = [];
+    triangles.forEach((triangle, i) => {
+        const own = Math.ceil(count * areasOfTriangles[i] / whole);
+        points.push(...spread(triangle, own, lightMap));
+        areas.push(...Array(own).fill(areasOfTriangles[i] / own));
+    });
+    return { points, areas };
 }
 
-/** Points { uv, place } of the surface of a hit of THREE.Raycaster, and their areas. */
+/** Points { uv, place } of the surface of a hit of THREE.Raycaster, and their areas; fewer in `inSun`. */
 export function surfaceAt({ object, faceIndex }) {
     const triangles = trianglesOf(object), planes = triangles.map(planeOf), { normal, offset } = planes[faceIndex];
     const within = triangles.map((_, i) => i).filter((i) => planes[i].area > 0
         && planes[i].normal.dot(normal) > samePlane.cosine && Math.abs(planes[i].offset - offset) < samePlane.metres);
-    const whole = within.reduce((sum, i) => sum + planes[i].area, 0);
-    const points = [], areas = [];
-    for (const i of within) {
-        const count = Math.ceil(samples * planes[i].area / whole);
-        points.push(...spread(triangles[i], count, object.material.lightMap));
-        areas.push(...Array(count).fill(planes[i].area / count));
-    }
-    return { points, areas };
+    const over = (count) => spreadOver(within.map((i) => triangles[i]), within.map((i) => planes[i].area), count,
+        object.material.lightMap);
+    return { ...over(samples), inSun: over(maxRays) };
 }
 
 /**
@@ -64,7 +65,7 @@ export function surfaceAt({ object, faceIndex }) {
  * direct sun; null: none.
  */
 export function lightOver(surface, map, sunAt) {
-    const { points, areas } = sunAt ? fewer(surface) : surface;
+    const { points, areas } = sunAt ? surface.inSun : surface;
     const lux = map.samples(points.map(({ uv }) => uv)).map(luxOf);
     if (sunAt) points.forEach(({ place }, i) => { lux[i] += luxOf(sunAt(place)); });
     const whole = areas.reduce((sum, area) => sum + area, 0);
