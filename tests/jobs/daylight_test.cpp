@@ -511,10 +511,10 @@ TEST(DaylightMaps, OfAnHourAreThatOfABakeOfTheSameHour)
         ASSERT_GT(of_bake, 0.0);
         EXPECT_NEAR(of_maps, of_bake, 0.02 * of_bake) << wanted;
         const double stated = std::hypot(maps->errors[h], kBake);
-        EXPECT_LT(std::sqrt(wrong / area), 1.5 * stated * std::sqrt(squares / whole_area))
+        EXPECT_LT(std::sqrt(wrong / area), 1.2 * stated * std::sqrt(squares / whole_area))
             << wanted << " stated " << maps->errors[h] << " is "
             << std::sqrt(wrong / area / squares * whole_area);
-        EXPECT_LT(stated, 0.08) << wanted;
+        EXPECT_LT(stated, 0.15) << wanted;
     }
 }
 

@@ -125,7 +125,7 @@ bool sees_lamp(const Scene& scene, const RayScene& rays, const Place& at, std::u
 }
 
 /// Follows a walk to its end. Returns true if it finds light.
-bool finds_light(const Scene& scene, const RayScene& rays, Place at, std::uint32_t key)
+bool finds_light(const Scene& scene, const RayScene& rays, Place at, std::uint32_t key, bool daylit)
 {
     for (std::uint32_t step = 0; step < kMaxSteps; ++step) {
         const std::uint32_t seed = mixed_bits(key + step);
@@ -135,7 +135,8 @@ bool finds_light(const Scene& scene, const RayScene& rays, Place at, std::uint32
             direction_about(at.normal, {unit_float(seed), unit_float(mixed_bits(~seed))});
         RayHit hit;
         if (!rays.closest(ray_out(at.position, direction, seed), hit))
-            return sky_radiance(scene.sky, direction) != glm::vec3(0.0f);
+            return (daylit && direction.y > 0.0f) ||
+                   sky_radiance(scene.sky, direction) != glm::vec3(0.0f);
         if (!hit.front && !is_double_sided(scene, hit))
             return false;
         if (material_of(scene, {hit.instance, hit.primitive, hit.triangle}).emitted !=
@@ -216,7 +217,7 @@ std::vector<char> lit_by_lamps(const Scene& scene, const RayScene& rays,
 }  // namespace
 
 std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
-                                    std::span<const std::vector<TriangleOf>> charts)
+                                    std::span<const std::vector<TriangleOf>> charts, bool daylit)
 {
     std::vector<char> both(charts.size(), 0);
     std::vector<ChartSides> sides;
@@ -238,7 +239,7 @@ std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
         for (std::uint32_t walk = 0; walk < walks && wanted > 0; ++walk) {
             const std::uint32_t key =
                 mixed_bits(2 * std::uint32_t(chart) + back) + walk * kMaxSteps;
-            wanted -= finds_light(scene, rays, sides[chart].start(back, walk, walks), key);
+            wanted -= finds_light(scene, rays, sides[chart].start(back, walk, walks), key, daylit);
         }
         return wanted == 0;
     };
@@ -249,12 +250,13 @@ std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
     return both;
 }
 
-ShowsBoth shows_both(Sides sides, const RayScene& rays)
+ShowsBoth shows_both(Sides sides, const RayScene& rays, bool daylit)
 {
     if (sides == Sides::automatic)
-        return [&rays](const Scene& scene, std::span<const std::vector<TriangleOf>> charts) {
-            return lit_on_both_sides(scene, rays, charts);
-        };
+        return
+            [&rays, daylit](const Scene& scene, std::span<const std::vector<TriangleOf>> charts) {
+                return lit_on_both_sides(scene, rays, charts, daylit);
+            };
     if (sides == Sides::both)
         return [](const Scene& scene, std::span<const std::vector<TriangleOf>> charts) {
             std::vector<char> both;

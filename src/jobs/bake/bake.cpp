@@ -41,6 +41,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     std::optional<WantedDaylight> wanted_daylight;
     if (!options.daylight.empty())
         wanted_daylight.emplace(options.daylight);
+    options.atlas.daylit = wanted_daylight.has_value();
     Scene scene = read_scene(scene_path, method.materials, options.lights);
     // Checks for failures before the long work.
     output.emplace(folder);
@@ -55,7 +56,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     if (options.probe_spacing > 0.0)
         check_probe_spacing(options.probe_spacing, setting.prepared);
     if (wanted_daylight)
-        wanted_daylight->check_memory(setting.prepared.lumels.lumels.size());
+        wanted_daylight->check_memory(setting.prepared, limits.host);
     options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =
@@ -118,8 +119,8 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
                                                   .kept(setting.prepared.scene.hash));
     std::vector<std::string> more_files;
     if (daylight)
-        more_files =
-            write_daylight(*output, options, setting.prepared, *wanted_daylight, *daylight, stages);
+        more_files = write_daylight(*output, options, setting.prepared, *wanted_daylight, *daylight,
+                                    solution->irradiance, stages);
     return write_bake(*output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, more_files, stages);
 }
@@ -136,6 +137,9 @@ void check_parts(const BakeOptions& options)
     if (options.directional != Directional::none)
         throw Error(ErrorKind::input, "--directional with --only",
                     "is not possible: directional layers hold all light, direct and indirect");
+    if (!options.daylight.empty())
+        throw Error(ErrorKind::input, "--daylight with --only",
+                    "is not possible: maps of daylight hold all light but direct sun");
 }
 
 BakeSummary bake(const std::string& scene_path, const std::string& folder,

@@ -1,11 +1,13 @@
 #include "jobs/bake/daylight_files.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
 #include "atlas/finish/finish.h"
+#include "base/core/error.h"
 #include "base/core/files.h"
 #include "base/images/image_files.h"
 #include "base/json/json_file.h"
@@ -26,14 +28,18 @@ std::string name_of(const WeatherHour& hour)
 }
 
 /// Finished maps [K] of the light of the hours, none negative.
-std::vector<Image> finished(const SolveScene& prepared, const DaylightMaps& maps)
+std::vector<Image> finished(const SolveScene& prepared, const DaylightMaps& maps,
+                            std::span<const glm::vec3> irradiance)
 {
     Estimates sum(prepared.lumels.lumels.size(), glm::vec3(0.0f));
     for (const Estimates& light : maps.light)
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] += light[i];
+    const bool is_baked = std::any_of(irradiance.begin(), irradiance.end(),
+                                      [](const glm::vec3& one) { return one != glm::vec3(0.0f); });
     FinishedMaps found =
-        finish_maps(prepared.scene, prepared.atlas, prepared.lumels, sum, maps.light);
+        finish_maps(prepared.scene, prepared.atlas, prepared.lumels,
+                    is_baked ? irradiance : std::span<const glm::vec3>(sum), maps.light);
     for (Image& map : found.layers)
         for (float& value : map.values)
             value = std::max(value, 0.0f);
@@ -51,6 +57,13 @@ DaylightTransportOptions options_of(std::uint32_t seed, std::size_t lumels)
     return options;
 }
 
+/// Rounded to what daylight.json keeps.
+double digits(double value)
+{
+    return std::stod(fmt::format("{:.6g}", value));
+}
+
+/// In the order of the calendar: a year of weather may begin in any month.
 Json hours_of(const WantedDaylight& wanted, const DaylightMaps& maps)
 {
     const DaylightYear& year = wanted.year();
@@ -62,14 +75,17 @@ Json hours_of(const WantedDaylight& wanted, const DaylightMaps& maps)
             continue;
         Json weights = Json::array();
         for (std::size_t k = 0; k < count; ++k)
-            weights.push_back(shortest(maps.weights[h * count + k]));
+            weights.push_back(digits(double(maps.weights[h * count + k])));
         rows.push_back({{"hour", name_of(wanted.weather().hours[year.number(h)])},
                         {"sun", json_array(glm::dvec3(sun.direction))},
-                        {"lux", shortest(sun.lux)},
-                        {"mean", shortest(float(maps.mean[h]))},
-                        {"error", shortest(float(maps.errors[h]))},
+                        {"lux", digits(double(sun.lux))},
+                        {"mean", digits(std::max(maps.mean[h], 0.0))},
+                        {"error", digits(maps.errors[h])},
                         {"weights", weights}});
     }
+    std::sort(rows.begin(), rows.end(), [](const Json& one, const Json& other) {
+        return one["hour"].get<std::string>() < other["hour"].get<std::string>();
+    });
     return rows;
 }
 
@@ -79,11 +95,24 @@ WantedDaylight::WantedDaylight(const std::string& weather_file)
     : weather_(read_weather(read_file(weather_file, weather_file), weather_file)),
       year_(weather_, kWholeDay)
 {
+    std::set<std::string> names;
+    for (const WeatherHour& hour : weather_.hours)
+        if (const std::string name = name_of(hour); !names.insert(name).second)
+            throw Error(ErrorKind::input, weather_file,
+                        "has the hour " + name + " twice, but --daylight needs a calendar year");
 }
 
-void WantedDaylight::check_memory(std::size_t lumels) const
+void WantedDaylight::check_memory(const SolveScene& prepared, std::uint64_t limit) const
 {
-    DaylightTransport::check_memory(lumels, year_.sun_places().size(), options_of(1, lumels));
+    const std::size_t texels =
+        std::size_t(prepared.atlas.width) * std::size_t(prepared.atlas.height);
+    const std::uint64_t needed =
+        daylight_map_bytes(prepared.lumels.lumels.size(), year_.sun_places().size(), texels);
+    if (limit > 0 && needed > limit)
+        throw Error(ErrorKind::input, "--daylight",
+                    fmt::format("needs about {} for this bake, but there is {}; choose a smaller "
+                                "--size",
+                                memory_text(needed), memory_text(limit)));
 }
 
 std::optional<DaylightMaps> make_daylight_maps(const WantedDaylight& wanted,
@@ -92,13 +121,21 @@ std::optional<DaylightMaps> make_daylight_maps(const WantedDaylight& wanted,
 {
     stages.begin("daylight");
     std::optional<DaylightMaps> maps;
-    if (!stages.stopped())
-        maps =
-            daylight_maps(prepared, wanted.year(), options_of(seed, prepared.lumels.lumels.size()),
-                          [&](double part) { return stages.progress(part); });
+    try {
+        if (!stages.stopped())
+            maps = daylight_maps(prepared, wanted.year(),
+                                 options_of(seed, prepared.lumels.lumels.size()),
+                                 [&](double part) { return stages.progress(part); });
+    } catch (const Error& error) {
+        // The bake is not lost.
+        stages.warn(std::string("no maps of daylight: ") + error.what());
+        return std::nullopt;
+    }
+    if (maps && maps->error > kMapsError)
+        stages.warn(fmt::format("{} maps of daylight, the most there are, leave an error of {}",
+                                maps->hours.size(), percent_text(maps->error)));
     if (!maps)
-        stages.tell("the bake was stopped before the maps of daylight were made; --resume makes "
-                    "them");
+        stages.tell("the bake was stopped before the maps of daylight were made");
     else if (maps->hours.empty()) {
         stages.warn("no daylight reaches any surface: there are no maps of it");
         maps.reset();
@@ -108,11 +145,12 @@ std::optional<DaylightMaps> make_daylight_maps(const WantedDaylight& wanted,
 
 std::vector<std::string> write_daylight(const OutputFolder& folder, const BakeOptions& options,
                                         const SolveScene& prepared, const WantedDaylight& wanted,
-                                        const DaylightMaps& maps, Stages& stages)
+                                        const DaylightMaps& maps,
+                                        std::span<const glm::vec3> irradiance, Stages& stages)
 {
     const Weather& weather = wanted.weather();
     const Pages& pages = prepared.atlas.pages;
-    const std::vector<Image> images = finished(prepared, maps);
+    const std::vector<Image> images = finished(prepared, maps, irradiance);
     std::vector<std::string> files;
     Json rows = Json::array();
     for (std::size_t k = 0; k < images.size(); ++k) {

@@ -2,6 +2,7 @@
 // Maps of daylight over a year: bake --daylight.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,8 @@ public:
 
     const Weather& weather() const { return weather_; }
     const DaylightYear& year() const { return year_; }
-    /// Throws Error{input} if the maps of so many lumels do not fit in memory.
-    void check_memory(std::size_t lumels) const;
+    /// Throws Error{input} if the maps do not fit. limit: of memory [bytes], 0: unknown.
+    void check_memory(const SolveScene& prepared, std::uint64_t limit) const;
 
 private:
     Weather weather_;
@@ -35,9 +36,11 @@ std::optional<DaylightMaps> make_daylight_maps(const WantedDaylight& wanted,
                                                const SolveScene& prepared, std::uint32_t seed,
                                                Stages& stages);
 
-/// Writes the maps and daylight.json. Returns the files' names.
+/// Writes the maps and daylight.json. irradiance [N]: of the lightmap; decides, if there is any,
+/// which side texels show that both sides share. Returns the files' names.
 std::vector<std::string> write_daylight(const OutputFolder& folder, const BakeOptions& options,
                                         const SolveScene& prepared, const WantedDaylight& wanted,
-                                        const DaylightMaps& maps, Stages& stages);
+                                        const DaylightMaps& maps,
+                                        std::span<const glm::vec3> irradiance, Stages& stages);
 
 }  // namespace lumel

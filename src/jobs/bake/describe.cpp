@@ -49,7 +49,8 @@ public:
         : prepared_(
               std::move(scene),
               [&](const Scene& placed, const RayScene& rays, const ProgressCallback& progress) {
-                  return make_atlas(placed, options, progress, shows_both(options.sides, rays));
+                  return make_atlas(placed, options, progress,
+                                    shows_both(options.sides, rays, options.daylit));
               },
               [&](const Scene& placed, const RayScene& rays, Lumels& lumels) {
                   return mark_some(placed, rays, lumels);

@@ -131,7 +131,7 @@ Setting::Setting(Scene scene, const gpu::Device* device, const BakeOptions& opti
           std::move(scene),
           [&](const Scene& placed, const RayScene& rays, const ProgressCallback& progress) {
               return make_atlas(placed, options.atlas, progress,
-                                shows_both(options.atlas.sides, rays));
+                                shows_both(options.atlas.sides, rays, options.atlas.daylit));
           },
           device, options, stages)
 {

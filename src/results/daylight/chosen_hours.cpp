@@ -17,6 +17,9 @@ namespace {
 
 /// Squared length left of a row of length 1, below which rounding is all that it has.
 constexpr double kRounding = 1e-6;
+/// Squared noise of a map, relative to its light. A row of which less is left is nearly a sum of
+/// others: its weights would multiply noise.
+constexpr double kMapNoise = 0.03 * 0.03;
 
 /// Cᵀ C [n][n].
 std::vector<float> squares_of(std::span<const float> coefficients, std::uint32_t n)
@@ -83,7 +86,9 @@ public:
         for (std::size_t h = 0; h < count_; ++h) {
             const double own = dot(row(h), row(h));
             const double taken =
-                own > kRounding ? dot(row(h), std::span(along).subspan(h * n_, n_)) / own : 0.0;
+                own > kRounding
+                    ? dot(row(h), std::span(along).subspan(h * n_, n_)) / (own + kMapNoise)
+                    : 0.0;
             if (taken > most) {
                 most = taken;
                 found = h;

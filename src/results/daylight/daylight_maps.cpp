@@ -1,15 +1,18 @@
 // 1. DaylightTransport finds coefficients of 145 patches and of positions of the sun, of low noise
 //    in the mean of squares of charts.
 // 2. These, times the strengths of hours, decide on the hours.
-// 3. Their maps are solved for on their own, with the sun where it is.
+// 3. Their maps are solved for on their own, with the sun where it is, and those of a few other
+//    hours, from which their sums differ by the error.
 
 #include "results/daylight/daylight_maps.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
 #include "base/core/luminance.h"
+#include "links/trace/links.h"
 #include "results/daylight/chosen_hours.h"
 #include "results/daylight/light_of_hours.h"
 #include "scene/sky/sky_patches.h"
@@ -22,10 +25,12 @@ constexpr std::uint32_t kSquare = 8;
 /// Part of the difference from a grid of the sun twice as wide that is the error of this: errors of
 /// linear interpolation are as the square of the step.
 constexpr double kOfWideError = 1.0 / 3.0;
+/// Hours that tell the error of the sums: as many as links carry at once.
+constexpr std::size_t kControls = kLampLanes;
 /// Shares of the work, for the progress bar only.
 constexpr double kTraced = 0.3, kReflected = 0.5;
 
-/// [hours][sources] What the sources send; grid: of the sun.
+/// [hours][sources] Source strengths of each hour; grid: of the sun.
 std::vector<float> strengths_of(const DaylightYear& year, DaylightYear::Sun::Grid grid)
 {
     std::vector<float> strengths;
@@ -106,7 +111,55 @@ double mean_of(const SolveScene& scene, const Estimates& light)
     return area > 0.0 ? sum / area : 0.0;
 }
 
+/// Hours with light that are not chosen, spread over the year.
+std::vector<std::size_t> control_hours(const ChosenHours& chosen, const DaylightYear& year)
+{
+    std::vector<std::size_t> others;
+    for (std::size_t h = 0; h < year.hours(); ++h)
+        if (year.open_ground(h) > 0.0 &&
+            std::find(chosen.hours.begin(), chosen.hours.end(), h) == chosen.hours.end())
+            others.push_back(h);
+    std::vector<std::size_t> controls;
+    for (std::size_t k = 0; k < std::min(kControls, others.size()); ++k)
+        controls.push_back(others[(2 * k + 1) * others.size() / (2 * kControls)]);
+    return controls;
+}
+
+/// RMS error of sums of maps at lumels in the control hours, relative to that by `errors`, which
+/// are of means of squares; at least 1. light: of the chosen hours, then of the controls.
+double measured_by_stated(const SolveScene& scene, const ChosenHours& chosen,
+                          std::span<const double> errors, std::span<const std::size_t> controls,
+                          std::span<const Estimates> light)
+{
+    const std::size_t count = chosen.hours.size();
+    double measured = 0.0, stated = 0.0;
+    for (std::size_t k = 0; k < controls.size(); ++k) {
+        const std::size_t hour = controls[k];
+        double wrong = 0.0, all = 0.0;
+        for (std::size_t i = 0; i < light[count + k].size(); ++i) {
+            const double area = double(scene.lumels.lumels[i].area);
+            glm::vec3 apart = light[count + k][i];
+            all += area * double(glm::dot(apart, apart));
+            for (std::size_t m = 0; m < count; ++m)
+                apart -= chosen.weights[hour * count + m] * light[m][i];
+            wrong += area * double(glm::dot(apart, apart));
+        }
+        measured += all > 0.0 ? wrong / all : 0.0;
+        stated += errors[hour] * errors[hour];
+    }
+    return stated > 0.0 ? std::sqrt(std::max(measured / stated, 1.0)) : 1.0;
+}
+
 }  // namespace
+
+std::uint64_t daylight_map_bytes(std::size_t lumels, std::size_t places, std::size_t texels)
+{
+    const std::uint64_t coefficients = DaylightTransport::bytes(lumels, places);
+    const std::uint64_t light = kMostDaylightMaps * lumels * sizeof(glm::vec3);
+    const std::uint64_t hours = light_of_hours_bytes(lumels, kMostDaylightMaps + kControls);
+    const std::uint64_t finished = light + kMostDaylightMaps * texels * sizeof(glm::vec4);
+    return std::max({coefficients, hours, finished});
+}
 
 std::optional<DaylightMaps> daylight_maps(const SolveScene& scene, const DaylightYear& year,
                                           const DaylightTransportOptions& options,
@@ -139,19 +192,30 @@ std::optional<DaylightMaps> daylight_maps(const SolveScene& scene, const Dayligh
     const std::vector<double> by_places =
         apart(coefficients, strengths, strengths_of(year, &DaylightYear::Sun::wide),
               std::uint32_t(count));
+    if (chosen.hours.empty())
+        return DaylightMaps{.mean = std::vector<double>(year.hours(), 0.0),
+                            .errors = std::vector<double>(year.hours(), 0.0)};
+    std::vector<double> errors;
+    for (std::size_t h = 0; h < year.hours(); ++h)
+        errors.push_back(std::hypot(chosen.errors[h], kOfWideError * by_places[h]));
+    const std::vector<std::size_t> controls = control_hours(chosen, year);
+    std::vector<std::size_t> solved = chosen.hours;
+    solved.insert(solved.end(), controls.begin(), controls.end());
     std::optional<LightOfHours> light =
-        light_of_hours(scene, year, chosen.hours, options.seed, part(kReflected, 1.0));
+        light_of_hours(scene, year, solved, options.seed, part(kReflected, 1.0));
     if (!light)
         return std::nullopt;
+    const double more = measured_by_stated(scene, chosen, errors, controls, light->light);
+    light->light.resize(chosen.hours.size());
 
     DaylightMaps maps{.hours = std::move(chosen.hours),
                       .light = std::move(light->light),
                       .weights = std::move(chosen.weights),
                       .mean = std::vector<double>(year.hours(), 0.0),
                       .error = chosen.error,
-                      .errors = std::move(chosen.errors)};
-    for (std::size_t h = 0; h < year.hours(); ++h)
-        maps.errors[h] = std::hypot(maps.errors[h], kOfWideError * by_places[h], light->noise);
+                      .errors = std::move(errors)};
+    for (double& error : maps.errors)
+        error = std::hypot(more * error, light->noise);
     for (std::size_t m = 0; m < maps.hours.size(); ++m) {
         const double mean = mean_of(scene, maps.light[m]);
         for (std::size_t h = 0; h < year.hours(); ++h)

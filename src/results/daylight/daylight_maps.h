@@ -29,6 +29,9 @@ struct DaylightMaps {
     std::vector<double> errors;
 };
 
+/// Host memory of daylight_maps() and of finished maps of its result, about [bytes].
+std::uint64_t daylight_map_bytes(std::size_t lumels, std::size_t places, std::size_t texels);
+
 /// Empty if progress, 0…1, returns false. Throws Error{input} if it does not fit in memory, and
 /// without OpenBLAS.
 std::optional<DaylightMaps> daylight_maps(const SolveScene& scene, const DaylightYear& year,

@@ -18,21 +18,25 @@ namespace {
 constexpr std::size_t kDaylitPerStep = 2048, kDaylitPerTask = 64, kLanesPerTask = 4096;
 /// Fraction of the constructor's work that direct light takes, for the progress bar only.
 constexpr double kDirectPart = 0.7;
-}  // namespace
 
-void DaylightTransport::check_memory(std::size_t lumels, std::size_t places,
-                                     const DaylightTransportOptions& options)
+void check_memory(std::size_t lumels, std::size_t places, const char* asked_by)
 {
     const std::uint64_t free = available_memory_bytes();
-    // Beside them, the links and the light in sub-lumels of some sources, or direct light apart.
-    constexpr std::uint64_t kOthers = 2;
-    const std::uint64_t needed =
-        kOthers * lumels * (SkyPatches().count() + places) * sizeof(glm::vec3);
+    const std::uint64_t needed = DaylightTransport::bytes(lumels, places);
     constexpr std::uint64_t kMebibyte = 1u << 20u;
     if (free > 0 && needed > free)
-        throw Error(ErrorKind::input, options.asked_by,
+        throw Error(ErrorKind::input, asked_by,
                     "needs about " + std::to_string(needed / kMebibyte) +
                         " MiB of memory for this bake; bake the scene with a smaller --size");
+}
+
+}  // namespace
+
+std::uint64_t DaylightTransport::bytes(std::size_t lumels, std::size_t places)
+{
+    // Beside the coefficients, the links and the light in sub-lumels of some sources.
+    constexpr std::uint64_t kOthers = 2;
+    return kOthers * lumels * (SkyPatches().count() + places) * sizeof(glm::vec3);
 }
 
 DaylightTransport::DaylightTransport(const SolveScene& scene, std::span<const glm::vec3> places,
@@ -41,7 +45,7 @@ DaylightTransport::DaylightTransport(const SolveScene& scene, std::span<const gl
     : scene_(scene)
 {
     const std::size_t lumels = scene.lumels.lumels.size();
-    check_memory(lumels, places.size(), options);
+    check_memory(lumels, places.size(), options.asked_by);
     const SkyPatches patches;
     const SkyRays rays(scene, options.sky_rays, options.seed);
     const auto sun_rays = std::uint32_t(std::ceil(double(options.sun_rays) / double(lumels + 1)));
@@ -49,7 +53,7 @@ DaylightTransport::DaylightTransport(const SolveScene& scene, std::span<const gl
     light_.assign(lumels * count_, glm::vec3(0.0f));
     const auto find = [&](std::size_t i) {
         glm::vec3* const light = &light_[i * count_];
-        rays.visit(i, [&](std::uint32_t, const glm::vec3& direction, const glm::vec3& found) {
+        rays.visit(i, [&](const glm::vec3& direction, const glm::vec3& found) {
             if (const std::uint32_t patch = patches.at(direction); patch != SkyPatches::kNone)
                 light[patch] += found;
         });

@@ -29,16 +29,16 @@ struct DaylightTransportOptions {
 class DaylightTransport {
 public:
     /// Finds direct light and the links. places: unit directions to the sun. progress: 0…1, returns
-    /// false to stop; the light is then not complete. The scene must outlive this.
+    /// false to stop; the light is then not complete. The scene must outlive this. Throws
+    /// Error{input} if it does not fit in memory.
     DaylightTransport(const SolveScene& scene, std::span<const glm::vec3> places,
                       const DaylightTransportOptions& options,
                       const std::function<bool(double)>& progress = {});
     DaylightTransport(DaylightTransport&& from) noexcept;
     ~DaylightTransport();
 
-    /// Throws Error{input} if the light of so many lumels does not fit in memory.
-    static void check_memory(std::size_t lumels, std::size_t places,
-                             const DaylightTransportOptions& options);
+    /// Host memory, about [bytes].
+    static std::uint64_t bytes(std::size_t lumels, std::size_t places);
 
     /// False if progress stopped it.
     bool is_complete() const { return is_complete_; }

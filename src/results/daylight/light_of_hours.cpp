@@ -27,14 +27,15 @@ struct DirectOfHours {
     std::array<Estimates, 2> halves;  ///< [N] of the sky in a typical hour, by half of the rays
 };
 
-/// Traces it.
+/// Traces direct light of hours.
 class RaysOfHours {
 public:
     RaysOfHours(const SolveScene& scene, const DaylightYear& year,
                 std::span<const std::size_t> hours, std::uint32_t seed)
         : year_(year),
           hours_(hours),
-          rays_(scene, kToSky, seed)
+          rays_{SkyRays(scene, kToSky / 2, PathSamples::hash(seed, 0)),
+                SkyRays(scene, kToSky / 2, PathSamples::hash(seed, 1))}
     {
         for (const std::size_t hour : hours)
             shares_.push_back(float(1.0 / year.open_ground(hour)));
@@ -48,30 +49,30 @@ public:
         }
     }
 
-    /// Of each hour in a typical one.
+    /// Weight of an hour in the typical hour.
     float share(std::size_t hour) const { return shares_[hour]; }
 
     void find(std::size_t lumel, DirectOfHours& light) const
     {
-        rays_.visit(lumel,
-                    [&](std::uint32_t k, const glm::vec3& direction, const glm::vec3& found) {
-                        const std::uint32_t patch = year_.patches().at(direction);
-                        if (patch == SkyPatches::kNone)
-                            return;
-                        light.halves[2 * k / kToSky][lumel] += 2.0f * typical_[patch] * found;
-                        for (std::size_t m = 0; m < hours_.size(); ++m)
-                            light.sky[m][lumel] += luminance_[patch * hours_.size() + m] * found;
-                    });
+        for (std::size_t half = 0; half < rays_.size(); ++half)
+            rays_[half].visit(lumel, [&](const glm::vec3& direction, const glm::vec3& found) {
+                const std::uint32_t patch = year_.patches().at(direction);
+                if (patch == SkyPatches::kNone)
+                    return;
+                light.halves[half][lumel] += typical_[patch] * found;
+                for (std::size_t m = 0; m < hours_.size(); ++m)
+                    light.sky[m][lumel] += 0.5f * luminance_[patch * hours_.size() + m] * found;
+            });
         for (std::size_t m = 0; m < hours_.size(); ++m)
             if (const DaylightYear::Sun& sun = year_.sun(hours_[m]); sun.lux > 0.0f)
                 light.sun[m][lumel] =
-                    sun.lux * rays_.sun(lumel, sun.direction, std::uint32_t(hours_[m]), kToSun);
+                    sun.lux * rays_[0].sun(lumel, sun.direction, std::uint32_t(hours_[m]), kToSun);
     }
 
 private:
     const DaylightYear& year_;
     std::span<const std::size_t> hours_;
-    SkyRays rays_;
+    std::array<SkyRays, 2> rays_;   ///< of each half: independent
     std::vector<float> shares_;     ///< [hours]
     std::vector<float> luminance_;  ///< [patches][hours]
     std::vector<float> typical_;    ///< [patches]
@@ -112,6 +113,14 @@ void reflect(const LinkRadiosity& links, std::size_t first, DirectOfHours& light
 }
 
 }  // namespace
+
+std::uint64_t light_of_hours_bytes(std::size_t lumels, std::size_t hours)
+{
+    constexpr std::size_t kSkyAndSun = 2;
+    return kSkyAndSun * hours * lumels * sizeof(glm::vec3) +
+           LinkRadiosity::first_bytes(lumels, kOfLinks, 0) +
+           LinkRadiosity::lamp_bytes(lumels, kLampLanes);
+}
 
 std::optional<LightOfHours> light_of_hours(const SolveScene& scene, const DaylightYear& year,
                                            std::span<const std::size_t> hours, std::uint32_t seed,

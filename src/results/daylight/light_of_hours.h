@@ -20,6 +20,9 @@ struct LightOfHours {
     double noise = 0.0;
 };
 
+/// Host memory of light_of_hours(), about [bytes].
+std::uint64_t light_of_hours_bytes(std::size_t lumels, std::size_t hours);
+
 /// Empty if progress, 0…1, returns false. All hours must have light.
 std::optional<LightOfHours> light_of_hours(const SolveScene& scene, const DaylightYear& year,
                                            std::span<const std::size_t> hours, std::uint32_t seed,

@@ -15,7 +15,7 @@ public:
     /// count: rays of a lumel. scene must outlive this.
     SkyRays(const SolveScene& scene, std::uint32_t count, std::uint32_t seed);
 
-    /// Calls visit(k, direction, light) for each ray k of a lumel that leaves the scene; light:
+    /// Calls visit(direction, light) for each ray of a lumel that leaves the scene; light:
     /// irradiance [lx] by a luminance of 1 cd/m² from there.
     template <class Visit>
     void visit(std::size_t lumel, const Visit& visit) const
@@ -25,11 +25,12 @@ public:
             glm::vec3 direction;
             const glm::vec3 light = send(lumel, PathSamples(stream, k), direction);
             if (light != glm::vec3(0.0f))
-                visit(k, direction, light);
+                visit(direction, light);
         }
     }
 
-    /// Of `count` rays to the sun, for 1 lx on a plane that faces it. number: of its position.
+    /// Irradiance [lx] by a sun of 1 lx on a plane that faces it, the mean of `count` rays. number:
+    /// selects their random numbers.
     glm::vec3 sun(std::size_t lumel, const glm::vec3& to_sun, std::uint32_t number,
                   std::uint32_t count) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a weather file has, in sentences.
+// Summary of a weather file, for messages.
 
 #include <string>
 #include <vector>

@@ -29,10 +29,12 @@ void* open_library()
 {
     void* const library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
     if (!library)
-        throw Error(ErrorKind::input, kLibrary,
-                    std::string("cannot be loaded, but this needs OpenBLAS (Debian package "
-                                "libopenblas0-pthread): ") +
-                        dlerror());
+        throw Error(
+            ErrorKind::input, kLibrary,
+            std::string(
+                "cannot be loaded; --solver matrix and --daylight need OpenBLAS (Debian package "
+                "libopenblas0-pthread): ") +
+                dlerror());
     return library;
 }
 
