@@ -38,7 +38,7 @@ struct AtlasOptions {
     int pages = 1;                  ///< maximum number of such maps if one is too small
     int gutter = 2;                 ///< empty texels between any two charts
     Sides sides = Sides::automatic;
-    bool daylit = false;  ///< Sides::automatic counts all of the sky as light
+    bool daylit = false;                 ///< Sides::automatic counts all of the sky as light
     std::vector<DensityRule> densities;  ///< the last match applies
     bool coarse_afar = false;  ///< fewer texels far from cameras and detail, see density.h
 };

@@ -78,7 +78,8 @@ SolveScene::SolveScene(Scene given, const AtlasOptions& options, const ProgressC
     : SolveScene(
           std::move(given),
           [&](const Scene& placed, const RayScene& among, const ProgressCallback& part) {
-              return make_atlas(placed, options, part, shows_both(options.sides, among, options.daylit));
+              return make_atlas(placed, options, part,
+                                shows_both(options.sides, among, options.daylit));
           },
           {}, progress)
 {
