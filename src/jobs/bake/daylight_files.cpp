@@ -11,13 +11,16 @@
 #include "base/core/files.h"
 #include "base/images/image_files.h"
 #include "base/json/json_file.h"
-#include "jobs/bake/lamp_maps.h"
+#include "jobs/bake/advice.h"
 #include "jobs/bake/outputs.h"
 #include "results/daylight/weather_notes.h"
+#include "results/page/daylight_list.h"
 #include "results/record/bake_record.h"
 
 namespace lumel {
 namespace {
+
+static_assert(kMostDaylightMaps <= kMaxDaylightMaps, "pages read as many");
 
 constexpr OccupiedHours kWholeDay{0, 24};
 
@@ -29,32 +32,29 @@ std::string name_of(const WeatherHour& hour)
 
 /// Finished maps [K] of the light of the hours, none negative.
 std::vector<Image> finished(const SolveScene& prepared, const DaylightMaps& maps,
-                            std::span<const glm::vec3> irradiance)
+                            const std::vector<glm::vec3>& irradiance)
 {
     Estimates sum(prepared.lumels.lumels.size(), glm::vec3(0.0f));
     for (const Estimates& light : maps.light)
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] += light[i];
-    const bool is_baked = std::any_of(irradiance.begin(), irradiance.end(),
-                                      [](const glm::vec3& one) { return one != glm::vec3(0.0f); });
-    FinishedMaps found =
-        finish_maps(prepared.scene, prepared.atlas, prepared.lumels,
-                    is_baked ? irradiance : std::span<const glm::vec3>(sum), maps.light);
+    FinishedMaps found = finish_maps(prepared.scene, prepared.atlas, prepared.lumels,
+                                     is_lit(irradiance) ? irradiance : sum, maps.light);
     for (Image& map : found.layers)
         for (float& value : map.values)
             value = std::max(value, 0.0f);
     return std::move(found.layers);
 }
 
-DaylightTransportOptions options_of(std::uint32_t seed, std::size_t lumels)
+/// Means of many lumels decide on the hours: the more there are, the fewer rays each needs.
+CoefficientRays rays_of(std::uint32_t seed, std::size_t lumels)
 {
-    // Means of many lumels decide on the hours: the more there are, the fewer rays each needs.
     constexpr std::size_t kRaysOfAll = 3'000'000;
-    DaylightTransportOptions options{.seed = seed, .asked_by = "--daylight"};
-    for (std::uint32_t* rays : {&options.sky_rays, &options.link_rays})
-        for (int halvings = 0; halvings < 2 && *rays * lumels > kRaysOfAll; ++halvings)
-            *rays /= 2;
-    return options;
+    CoefficientRays rays{.seed = seed};
+    for (std::uint32_t* count : {&rays.sky, &rays.links})
+        for (int halvings = 0; halvings < 2 && *count * lumels > kRaysOfAll; ++halvings)
+            *count /= 2;
+    return rays;
 }
 
 /// Rounded to what daylight.json keeps.
@@ -120,33 +120,35 @@ std::optional<DaylightMaps> make_daylight_maps(const WantedDaylight& wanted,
                                                Stages& stages)
 {
     stages.begin("daylight");
-    std::optional<DaylightMaps> maps;
+    DaylightMaps maps;
     try {
-        if (!stages.stopped())
-            maps = daylight_maps(prepared, wanted.year(),
-                                 options_of(seed, prepared.lumels.lumels.size()),
-                                 [&](double part) { return stages.progress(part); });
+        if (!unless_stopped([&] {
+                maps =
+                    daylight_maps(prepared, wanted.year(),
+                                  rays_of(seed, prepared.lumels.lumels.size()), stages.callback());
+            })) {
+            stages.tell("the bake was stopped before the maps of daylight were made");
+            return std::nullopt;
+        }
     } catch (const Error& error) {
         // The bake is not lost.
         stages.warn(std::string("no maps of daylight: ") + error.what());
         return std::nullopt;
     }
-    if (maps && maps->error > kMapsError)
-        stages.warn(fmt::format("{} maps of daylight, the most there are, leave an error of {}",
-                                maps->hours.size(), percent_text(maps->error)));
-    if (!maps)
-        stages.tell("the bake was stopped before the maps of daylight were made");
-    else if (maps->hours.empty()) {
+    if (maps.hours.empty()) {
         stages.warn("no daylight reaches any surface: there are no maps of it");
-        maps.reset();
+        return std::nullopt;
     }
+    if (maps.error > kMapsError)
+        stages.warn(fmt::format("{} maps of daylight, the most there are, leave an error of {}",
+                                maps.hours.size(), percent_text(maps.error)));
     return maps;
 }
 
 std::vector<std::string> write_daylight(const OutputFolder& folder, const BakeOptions& options,
                                         const SolveScene& prepared, const WantedDaylight& wanted,
                                         const DaylightMaps& maps,
-                                        std::span<const glm::vec3> irradiance, Stages& stages)
+                                        const std::vector<glm::vec3>& irradiance, Stages& stages)
 {
     const Weather& weather = wanted.weather();
     const Pages& pages = prepared.atlas.pages;

@@ -2,7 +2,6 @@
 // Maps of daylight over a year: bake --daylight.
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +40,6 @@ std::optional<DaylightMaps> make_daylight_maps(const WantedDaylight& wanted,
 std::vector<std::string> write_daylight(const OutputFolder& folder, const BakeOptions& options,
                                         const SolveScene& prepared, const WantedDaylight& wanted,
                                         const DaylightMaps& maps,
-                                        std::span<const glm::vec3> irradiance, Stages& stages);
+                                        const std::vector<glm::vec3>& irradiance, Stages& stages);
 
 }  // namespace lumel

@@ -8,6 +8,7 @@
 
 #include "base/core/files.h"
 #include "base/core/parallel.h"
+#include "base/core/usage.h"
 #include "base/images/image_files.h"
 #include "base/json/json_file.h"
 #include "jobs/edit/finished_bake.h"
@@ -103,11 +104,15 @@ Daylight find_daylight(const FinishedBake& bake, const Weather& weather,
     stages.note(fmt::format("{} patches of the sky, {} positions of the sun", SkyPatches().count(),
                             year.sun_places().size()));
     stages.begin("daylight");
-    ReflectedDaylight reflected(bake.prepared, year.sun_places(),
-                                {.seed = seed_in(bake), .asked_by = "--weather"},
-                                [&](double part) { return stages.progress(part); });
-    if (!reflected.is_complete())
-        throw_stopped();
+    const std::uint64_t free = available_memory_bytes(),
+                        needed = lumel_coefficient_bytes(bake.prepared.lumels.lumels.size(),
+                                                         year.sun_places().size());
+    if (free > 0 && needed > free)
+        throw Error(ErrorKind::input, "--weather",
+                    "needs about " + memory_text(needed) +
+                        " of memory for this bake; bake the scene with a smaller --size");
+    ReflectedDaylight reflected(bake.prepared, year.sun_places(), {.seed = seed_in(bake)},
+                                stages.callback());
     return {std::move(year), one, std::move(reflected)};
 }
 

@@ -21,31 +21,6 @@ constexpr double kRounding = 1e-6;
 /// others: its weights would multiply noise.
 constexpr double kMapNoise = 0.03 * 0.03;
 
-/// Cᵀ C [n][n].
-std::vector<float> squares_of(std::span<const float> coefficients, std::uint32_t n)
-{
-    const auto rows = std::uint32_t(coefficients.size() / n);
-    std::vector<float> squares(std::size_t(n) * n);
-    blas::product(blas::transposed(coefficients, rows, n), {coefficients, rows, n}, squares);
-    return squares;
-}
-
-/// Λ^½ Q, for Cᵀ C = Qᵀ Λ Q [n][n].
-std::vector<float> root_of(std::span<const float> coefficients, std::uint32_t n)
-{
-    const std::vector<float> squares = squares_of(coefficients, n);
-    std::vector<float> root = squares, projected(squares.size());
-    blas::eigenvectors(root, n);
-    blas::product({root, n, n}, {squares, n, n}, projected);
-    for (std::size_t k = 0; k < n; ++k) {
-        const std::span<float> row = std::span(root).subspan(k * n, n);
-        const double value = dot(row, std::span(projected).subspan(k * n, n));
-        for (float& one : row)
-            one *= float(std::sqrt(std::max(value, 0.0)));
-    }
-    return root;
-}
-
 /// The hours' light as rows [hours][n].
 class Rows {
 public:
@@ -138,10 +113,27 @@ std::vector<double> weights_of(const Rows& rows, std::span<const std::size_t> ch
 
 }  // namespace
 
-ChosenHours choose_hours(std::span<const float> coefficients, std::span<const float> sources,
+std::vector<float> light_root(std::span<const float> coefficients, std::uint32_t n)
+{
+    const auto rows = std::uint32_t(coefficients.size() / n);
+    std::vector<float> squares(std::size_t(n) * n), projected(squares.size());
+    blas::product(blas::transposed(coefficients, rows, n), {coefficients, rows, n}, squares);
+    std::vector<float> root = squares;
+    blas::eigenvectors(root, n);
+    blas::product({root, n, n}, {squares, n, n}, projected);
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::span<float> row = std::span(root).subspan(k * n, n);
+        const double value = dot(row, std::span(projected).subspan(k * n, n));
+        for (float& one : row)
+            one *= float(std::sqrt(std::max(value, 0.0)));
+    }
+    return root;
+}
+
+ChosenHours choose_hours(std::span<const float> root, std::span<const float> sources,
                          std::uint32_t source_count, double error, std::size_t most)
 {
-    Rows rows(root_of(coefficients, source_count), sources, source_count);
+    Rows rows(root, sources, source_count);
     ChosenHours found;
     while (found.hours.size() < most && rows.left() > error * error) {
         const std::size_t next = rows.best();
@@ -161,28 +153,16 @@ ChosenHours choose_hours(std::span<const float> coefficients, std::span<const fl
     return found;
 }
 
-std::vector<double> apart(std::span<const float> coefficients, std::span<const float> sources,
-                          std::span<const float> others, std::uint32_t source_count)
+std::vector<double> relative_difference(std::span<const float> root, std::span<const float> sources,
+                                        std::span<const float> others, std::uint32_t source_count)
 {
-    const std::size_t n = source_count, hours = sources.size() / n;
-    const std::vector<float> squares = squares_of(coefficients, source_count);
-    const auto lengths = [&](std::span<const float> rows) {
-        std::vector<float> along(rows.size());
-        blas::product({rows, std::uint32_t(hours), source_count},
-                      {squares, source_count, source_count}, along);
-        std::vector<double> found;
-        for (std::size_t h = 0; h < hours; ++h)
-            found.push_back(std::max(
-                dot(rows.subspan(h * n, n), std::span<const float>(along).subspan(h * n, n)), 0.0));
-        return found;
-    };
     std::vector<float> difference(sources.begin(), sources.end());
     for (std::size_t k = 0; k < difference.size(); ++k)
         difference[k] -= others[k];
-    const std::vector<double> of_light = lengths(sources), of_difference = lengths(difference);
+    const Rows light(root, sources, source_count), apart(root, difference, source_count);
     std::vector<double> found;
-    for (std::size_t h = 0; h < hours; ++h)
-        found.push_back(of_light[h] > 0.0 ? std::sqrt(of_difference[h] / of_light[h]) : 0.0);
+    for (std::size_t h = 0; h < light.count(); ++h)
+        found.push_back(light.length(h) > 0.0 ? apart.length(h) / light.length(h) : 0.0);
     return found;
 }
 

@@ -1,5 +1,5 @@
-// 1. DaylightTransport finds coefficients of 145 patches and of positions of the sun, of low noise
-//    in the mean of squares of charts.
+// 1. lumel_coefficients() of 145 patches and of positions of the sun, of low noise in the mean of
+//    squares of charts.
 // 2. These, times the strengths of hours, decide on the hours.
 // 3. Their maps are solved for on their own, with the sun where it is, and those of a few other
 //    hours, from which their sums differ by the error.
@@ -27,8 +27,8 @@ constexpr std::uint32_t kSquare = 8;
 constexpr double kOfWideError = 1.0 / 3.0;
 /// Hours that tell the error of the sums: as many as links carry at once.
 constexpr std::size_t kControls = kLampLanes;
-/// Shares of the work, for the progress bar only.
-constexpr double kTraced = 0.3, kReflected = 0.5;
+/// Share of the work, for the progress bar only.
+constexpr double kBeforeMaps = 0.5;
 
 /// [hours][sources] Source strengths of each hour; grid: of the sun.
 std::vector<float> strengths_of(const DaylightYear& year, DaylightYear::Sun::Grid grid)
@@ -65,15 +65,13 @@ public:
                 areas_[of_lumel_[i]] += double(scene.lumels.lumels[i].area);
     }
 
-    /// Adds the first `some` coefficients of each lumel.
-    void add(const DaylightTransport& light, std::size_t some)
+    /// Adds coefficients [N][count].
+    void add(std::span<const glm::vec3> coefficients)
     {
         for (std::size_t i = 0; i < of_lumel_.size(); ++i)
-            for (std::size_t k = 0; of_lumel_[i] != kNone && k < some; ++k) {
-                const glm::dvec3 own =
-                    double(scene_.lumels.lumels[i].area) * glm::dvec3(light.of(i)[k]);
-                sums_[of_lumel_[i] * count_ + k] += own;
-            }
+            for (std::size_t k = 0; of_lumel_[i] != kNone && k < count_; ++k)
+                sums_[of_lumel_[i] * count_ + k] +=
+                    double(scene_.lumels.lumels[i].area) * glm::dvec3(coefficients[i * count_ + k]);
     }
 
     /// [3 squares][count] Means by the root of the area.
@@ -150,48 +148,42 @@ double measured_by_stated(const SolveScene& scene, const ChosenHours& chosen,
     return stated > 0.0 ? std::sqrt(std::max(measured / stated, 1.0)) : 1.0;
 }
 
+/// Root of the light in means of squares: direct light of the sky, reflected light of sky and sun.
+std::vector<float> root_of_squares(const SolveScene& scene, const DaylightYear& year,
+                                   const CoefficientRays& rays, const ProgressCallback& progress)
+{
+    const std::size_t patches = SkyPatches().count(), count = patches + year.sun_places().size();
+    Squares squares(scene, count);
+    squares.add(lumel_coefficients(
+        scene, year.sun_places(), rays,
+        [&](std::size_t, std::size_t source, const glm::vec3& direct, const glm::vec3& reflected) {
+            return source < patches ? direct + reflected : reflected;
+        },
+        progress));
+    return light_root(squares.coefficients(), std::uint32_t(count));
+}
+
 }  // namespace
 
 std::uint64_t daylight_map_bytes(std::size_t lumels, std::size_t places, std::size_t texels)
 {
-    const std::uint64_t coefficients = DaylightTransport::bytes(lumels, places);
+    const std::uint64_t coefficients = lumel_coefficient_bytes(lumels, places);
     const std::uint64_t light = kMostDaylightMaps * lumels * sizeof(glm::vec3);
     const std::uint64_t hours = light_of_hours_bytes(lumels, kMostDaylightMaps + kControls);
     const std::uint64_t finished = light + kMostDaylightMaps * texels * sizeof(glm::vec4);
     return std::max({coefficients, hours, finished});
 }
 
-std::optional<DaylightMaps> daylight_maps(const SolveScene& scene, const DaylightYear& year,
-                                          const DaylightTransportOptions& options,
-                                          const std::function<bool(double)>& progress)
+DaylightMaps daylight_maps(const SolveScene& scene, const DaylightYear& year,
+                           const CoefficientRays& rays, const ProgressCallback& progress)
 {
-    const auto part = [&](double from, double to) {
-        return [&progress, from, to](double done) {
-            return !progress || progress(from + (to - from) * done);
-        };
-    };
-    std::optional<DaylightTransport> transport(std::in_place, scene, year.sun_places(), options,
-                                               part(0.0, kTraced));
-    if (!transport->is_complete())
-        return std::nullopt;
-    const std::size_t count = transport->count();
-    Squares squares(scene, count);
-    squares.add(*transport, SkyPatches().count());
-    transport->reflect(
-        [](std::size_t, const glm::vec3&, const glm::vec3& reflected) { return reflected; },
-        part(kTraced, kReflected));
-    if (!transport->is_complete())
-        return std::nullopt;
-    squares.add(*transport, count);
-    transport.reset();
-
-    const std::vector<float> coefficients = squares.coefficients();
+    const std::vector<float> root =
+        root_of_squares(scene, year, rays, part_of(progress, 0.0, kBeforeMaps));
     const std::vector<float> strengths = strengths_of(year, &DaylightYear::Sun::near);
-    ChosenHours chosen =
-        choose_hours(coefficients, strengths, std::uint32_t(count), kMapsError, kMostDaylightMaps);
+    const auto count = std::uint32_t(SkyPatches().count() + year.sun_places().size());
+    ChosenHours chosen = choose_hours(root, strengths, count, kMapsError, kMostDaylightMaps);
     const std::vector<double> by_places =
-        apart(coefficients, strengths, strengths_of(year, &DaylightYear::Sun::wide),
-              std::uint32_t(count));
+        relative_difference(root, strengths, strengths_of(year, &DaylightYear::Sun::wide), count);
     if (chosen.hours.empty())
         return DaylightMaps{.mean = std::vector<double>(year.hours(), 0.0),
                             .errors = std::vector<double>(year.hours(), 0.0)};
@@ -201,21 +193,19 @@ std::optional<DaylightMaps> daylight_maps(const SolveScene& scene, const Dayligh
     const std::vector<std::size_t> controls = control_hours(chosen, year);
     std::vector<std::size_t> solved = chosen.hours;
     solved.insert(solved.end(), controls.begin(), controls.end());
-    std::optional<LightOfHours> light =
-        light_of_hours(scene, year, solved, options.seed, part(kReflected, 1.0));
-    if (!light)
-        return std::nullopt;
-    const double more = measured_by_stated(scene, chosen, errors, controls, light->light);
-    light->light.resize(chosen.hours.size());
+    LightOfHours light =
+        light_of_hours(scene, year, solved, rays.seed, part_of(progress, kBeforeMaps, 1.0));
+    const double more = measured_by_stated(scene, chosen, errors, controls, light.light);
+    light.light.resize(chosen.hours.size());
 
     DaylightMaps maps{.hours = std::move(chosen.hours),
-                      .light = std::move(light->light),
+                      .light = std::move(light.light),
                       .weights = std::move(chosen.weights),
                       .mean = std::vector<double>(year.hours(), 0.0),
                       .error = chosen.error,
                       .errors = std::move(errors)};
     for (double& error : maps.errors)
-        error = std::hypot(more * error, light->noise);
+        error = std::hypot(more * error, light.noise);
     for (std::size_t m = 0; m < maps.hours.size(); ++m) {
         const double mean = mean_of(scene, maps.light[m]);
         for (std::size_t h = 0; h < year.hours(); ++h)

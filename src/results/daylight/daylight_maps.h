@@ -1,14 +1,13 @@
 #pragma once
 // Maps of the daylight of a few hours, of which the light of all hours of a year is a sum.
 
-#include <functional>
-#include <optional>
 #include <vector>
 
 #include "atlas/prepare/solve_scene.h"
+#include "base/core/progress_callback.h"
 #include "links/direct/solutions.h"
-#include "results/daylight/daylight_transport.h"
 #include "results/daylight/daylight_year.h"
+#include "results/daylight/lumel_coefficients.h"
 
 namespace lumel {
 
@@ -32,10 +31,8 @@ struct DaylightMaps {
 /// Host memory of daylight_maps() and of finished maps of its result, about [bytes].
 std::uint64_t daylight_map_bytes(std::size_t lumels, std::size_t places, std::size_t texels);
 
-/// Empty if progress, 0…1, returns false. Throws Error{input} if it does not fit in memory, and
-/// without OpenBLAS.
-std::optional<DaylightMaps> daylight_maps(const SolveScene& scene, const DaylightYear& year,
-                                          const DaylightTransportOptions& options,
-                                          const std::function<bool(double)>& progress = {});
+/// rays: of the coefficients that decide on the hours. Throws Error{input} without OpenBLAS.
+DaylightMaps daylight_maps(const SolveScene& scene, const DaylightYear& year,
+                           const CoefficientRays& rays, const ProgressCallback& progress = {});
 
 }  // namespace lumel

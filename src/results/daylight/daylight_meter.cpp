@@ -58,13 +58,10 @@ DaylightMeter::DaylightMeter(const LightMeter& meter, const DaylightYear& year,
       seed_(seed),
       patches_(year.patches().count())
 {
-    const SkyPatches whole;
     const std::vector<double> overcast = year.patches().means(
         [](const glm::dvec3& direction) { return cie_luminance(kOvercastType, direction.y, 0.0); });
     double on_plane = 0.0;
     for (std::size_t k = 0; k < patches_; ++k) {
-        share_.push_back(
-            float(year.patches().solid_angle(k) / whole.solid_angle(year.patches().whole(k))));
         on_plane += overcast[k] * year.patches().projected(k);
     }
     for (const double luminance : overcast)
@@ -97,7 +94,7 @@ DaylightCoefficients DaylightMeter::coefficients(const MeterPoint& point,
     for (std::size_t set = 0; set < kRaySets; ++set) {
         std::vector<float>& of_set = found.of_sets[set];
         for (std::size_t k = 0; k < patches_; ++k)
-            of_set[k] += share_[k] * float(by_lumels[set][year_.patches().whole(k)]);
+            of_set[k] += year_.share(k) * float(by_lumels[set][year_.patches().whole(k)]);
         for (std::size_t p = 0; p < places; ++p)
             of_set[patches_ + p] = float(by_lumels[set][wholes + p]);
         for (std::size_t k = 0; k < of_set.size(); ++k)

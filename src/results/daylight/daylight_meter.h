@@ -82,7 +82,6 @@ private:
     const ReflectedDaylight& reflected_;
     std::uint32_t seed_;
     std::size_t patches_;          ///< of the year
-    std::vector<float> share_;     ///< [patches_] fraction of the solid angle of its whole patch
     std::vector<float> overcast_;  ///< [patches_] luminance of the overcast sky per lux [cd/m²/lx]
 };
 

@@ -63,6 +63,10 @@ struct Celestial {
 DaylightYear::DaylightYear(const Weather& weather, const OccupiedHours& occupied)
     : patches_(kDivision)
 {
+    const SkyPatches whole;
+    for (std::size_t patch = 0; patch < patches_.count(); ++patch)
+        shares_.push_back(
+            float(patches_.solid_angle(patch) / whole.solid_angle(patches_.whole(patch))));
     for (std::size_t i = 0; i < weather.hours.size(); ++i)
         if (weather.hours[i].ends > occupied.from && weather.hours[i].ends <= occupied.to)
             numbers_.push_back(i);
@@ -110,16 +114,13 @@ double DaylightYear::open_ground(std::size_t hour) const
 
 std::vector<float> DaylightYear::strengths(std::size_t hour, Sun::Grid grid) const
 {
-    const SkyPatches whole;
-    std::vector<float> strengths(whole.count() + places_.size(), 0.0f);
-    for (std::size_t patch = 0; patch < patches_.count(); ++patch) {
-        const std::uint32_t own = patches_.whole(patch);
-        strengths[own] +=
-            float(patches_.solid_angle(patch) / whole.solid_angle(own)) * luminance(patch)[hour];
-    }
+    const std::size_t whole = SkyPatches().count();
+    std::vector<float> strengths(whole + places_.size(), 0.0f);
+    for (std::size_t patch = 0; patch < patches_.count(); ++patch)
+        strengths[patches_.whole(patch)] += shares_[patch] * luminance(patch)[hour];
     for (const Sun::Share& share : suns_[hour].*grid)
         if (suns_[hour].lux > 0.0f)
-            strengths[whole.count() + share.place] += share.weight * suns_[hour].lux;
+            strengths[whole + share.place] += share.weight * suns_[hour].lux;
     return strengths;
 }
 

@@ -29,6 +29,8 @@ public:
     /// Illuminance of open ground in an hour by sky and sun [lx].
     double open_ground(std::size_t hour) const;
     const SkyPatches& patches() const { return patches_; }
+    /// Fraction of the solid angle of its whole patch that a patch has.
+    float share(std::size_t patch) const { return shares_[patch]; }
     /// Luminance of a patch in all hours [hours()] [cd/m²].
     std::span<const float> luminance(std::size_t patch) const
     {
@@ -50,7 +52,7 @@ public:
         using Grid = std::array<Share, 4> Sun::*;
     };
     const Sun& sun(std::size_t hour) const { return suns_[hour]; }
-    /// Strengths in an hour of the sources of DaylightTransport: mean luminance of each of the 145
+    /// Strengths in an hour of the sources of CoefficientOf: mean luminance of each of the 145
     /// patches of [Tre87] [cd/m²], then illuminance by the sun at each of its places [lx].
     /// grid: of the sun, near or wide.
     std::vector<float> strengths(std::size_t hour, Sun::Grid grid) const;
@@ -62,6 +64,7 @@ private:
     void place_suns(double latitude);
 
     SkyPatches patches_;
+    std::vector<float> shares_;  ///< [patches]
     std::vector<std::size_t> numbers_;
     std::vector<float> luminance_;  ///< [patches][hours]
     std::vector<Sun> suns_;         ///< [hours]

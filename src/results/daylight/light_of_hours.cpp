@@ -16,10 +16,13 @@ namespace lumel {
 namespace {
 
 constexpr std::size_t kMappedPerStep = 2048, kMappedPerTask = 64;
-/// Rays of a lumel to the sky, to each sun, and of its links.
-constexpr std::uint32_t kToSky = 512, kToSun = 4, kOfLinks = 384;
+/// Rays of a lumel to the sky and of its links.
+constexpr std::uint32_t kToSky = 512, kOfLinks = 384;
+/// Shadow rays to each sun: least of a lumel, and least of all lumels, so that small sunlit patches
+/// get enough whatever the size of lumels.
+constexpr std::uint32_t kLeastToSun = 4, kToSun = 400'000;
 /// Shares of the work, for the progress bar only.
-constexpr double kSkyPart = 0.4, kTracedPart = 0.6;
+constexpr double kSkyPart = 0.4, kLinkedPart = 0.6;
 
 /// Direct light [lx].
 struct DirectOfHours {
@@ -34,8 +37,9 @@ public:
                 std::span<const std::size_t> hours, std::uint32_t seed)
         : year_(year),
           hours_(hours),
-          rays_{SkyRays(scene, kToSky / 2, PathSamples::hash(seed, 0)),
-                SkyRays(scene, kToSky / 2, PathSamples::hash(seed, 1))}
+          rays_(scene),
+          to_sun_(std::max(kLeastToSun, kToSun / std::uint32_t(scene.lumels.lumels.size() + 1))),
+          seed_(seed)
     {
         for (const std::size_t hour : hours)
             shares_.push_back(float(1.0 / year.open_ground(hour)));
@@ -54,47 +58,57 @@ public:
 
     void find(std::size_t lumel, DirectOfHours& light) const
     {
-        for (std::size_t half = 0; half < rays_.size(); ++half)
-            rays_[half].visit(lumel, [&](const glm::vec3& direction, const glm::vec3& found) {
-                const std::uint32_t patch = year_.patches().at(direction);
-                if (patch == SkyPatches::kNone)
-                    return;
-                light.halves[half][lumel] += typical_[patch] * found;
-                for (std::size_t m = 0; m < hours_.size(); ++m)
-                    light.sky[m][lumel] += 0.5f * luminance_[patch * hours_.size() + m] * found;
-            });
+        for (std::uint32_t half = 0; half < light.halves.size(); ++half)
+            rays_.visit(lumel, kToSky / 2, PathSamples::hash(seed_, half),
+                        [&](const glm::vec3& direction, const glm::vec3& found) {
+                            add(lumel, half, year_.patches().at(direction), found, light);
+                        });
         for (std::size_t m = 0; m < hours_.size(); ++m)
             if (const DaylightYear::Sun& sun = year_.sun(hours_[m]); sun.lux > 0.0f)
-                light.sun[m][lumel] =
-                    sun.lux * rays_[0].sun(lumel, sun.direction, std::uint32_t(hours_[m]), kToSun);
+                light.sun[m][lumel] = sun.lux * rays_.sun(lumel, sun.direction,
+                                                          std::uint32_t(hours_[m]), to_sun_, seed_);
     }
 
 private:
+    void add(std::size_t lumel, std::size_t half, std::uint32_t patch, const glm::vec3& found,
+             DirectOfHours& light) const
+    {
+        if (patch == SkyPatches::kNone)
+            return;
+        light.halves[half][lumel] += typical_[patch] * found;
+        for (std::size_t m = 0; m < hours_.size(); ++m)
+            light.sky[m][lumel] += 0.5f * luminance_[patch * hours_.size() + m] * found;
+    }
+
     const DaylightYear& year_;
     std::span<const std::size_t> hours_;
-    std::array<SkyRays, 2> rays_;   ///< of each half: independent
+    SkyRays rays_;
+    std::uint32_t to_sun_;
+    std::uint32_t seed_;
     std::vector<float> shares_;     ///< [hours]
     std::vector<float> luminance_;  ///< [patches][hours]
     std::vector<float> typical_;    ///< [patches]
 };
 
-/// Empty if progress returns false.
-std::optional<DirectOfHours> trace(const SolveScene& scene, const RaysOfHours& rays,
-                                   std::size_t hours, const std::function<bool(double)>& progress)
+DirectOfHours trace(const SolveScene& scene, const RaysOfHours& rays, std::size_t hours,
+                    const ProgressCallback& progress)
 {
     const std::size_t lumels = scene.lumels.lumels.size();
     const Estimates none(lumels, glm::vec3(0.0f));
     DirectOfHours light{
         std::vector<Estimates>(hours, none), std::vector<Estimates>(hours, none), {none, none}};
-    const bool done = parallel_steps(
+    parallel_steps(
         lumels, kMappedPerStep, kMappedPerTask,
         [&](std::size_t from, std::size_t to) {
             for (std::size_t i = from; i < to; ++i)
                 if (!(scene.lumels.lumels[i].flags & kLumelBuried))
                     rays.find(i, light);
         },
-        [&](std::size_t count) { return progress(double(count) / double(lumels)); });
-    return done ? std::optional(std::move(light)) : std::nullopt;
+        [&](std::size_t count) {
+            notify(progress, double(count) / double(lumels));
+            return true;
+        });
+    return light;
 }
 
 /// Replaces light of the sun by reflected light of sky and sun.
@@ -122,41 +136,35 @@ std::uint64_t light_of_hours_bytes(std::size_t lumels, std::size_t hours)
            LinkRadiosity::lamp_bytes(lumels, kLampLanes);
 }
 
-std::optional<LightOfHours> light_of_hours(const SolveScene& scene, const DaylightYear& year,
-                                           std::span<const std::size_t> hours, std::uint32_t seed,
-                                           const std::function<bool(double)>& progress)
+LightOfHours light_of_hours(const SolveScene& scene, const DaylightYear& year,
+                            std::span<const std::size_t> hours, std::uint32_t seed,
+                            const ProgressCallback& progress)
 {
     const std::size_t lumels = scene.lumels.lumels.size();
     const RaysOfHours rays(scene, year, hours, seed);
-    std::optional<DirectOfHours> light =
-        trace(scene, rays, hours.size(), [&](double done) { return progress(kSkyPart * done); });
-    if (!light)
-        return std::nullopt;
+    DirectOfHours light = trace(scene, rays, hours.size(), part_of(progress, 0.0, kSkyPart));
     LinkRadiosity links(
         scene, LinksOptions{.seed = seed, .even_rays = kOfLinks, .outside_light = true}, {});
     while (!links.state().ended) {
-        if (!progress(kSkyPart))
-            return std::nullopt;
+        notify(progress, kSkyPart);
         links.step();
     }
     Estimates sent(lumels, glm::vec3(0.0f));
     for (std::size_t m = 0; m < hours.size(); ++m)
         for (std::size_t i = 0; i < lumels; ++i)
-            sent[i] += rays.share(m) * (light->sky[m][i] + light->sun[m][i]);
+            sent[i] += rays.share(m) * (light.sky[m][i] + light.sun[m][i]);
     for (std::size_t first = 0; first < hours.size(); first += kLampLanes) {
-        if (!progress(kTracedPart + (1.0 - kTracedPart) * double(first) / double(hours.size())))
-            return std::nullopt;
-        reflect(links, first, *light);
+        notify(progress, kLinkedPart + (1.0 - kLinkedPart) * double(first) / double(hours.size()));
+        reflect(links, first, light);
     }
     LightOfHours found;
     found.noise = links.filter_outside(
-        {std::move(light->halves[0]), std::move(light->halves[1]), std::move(sent)}, light->sky,
-        light->sun);
-    found.light = std::move(light->sky);
+        {std::move(light.halves[0]), std::move(light.halves[1]), std::move(sent)}, light.sky,
+        light.sun);
+    found.light = std::move(light.sky);
     for (std::size_t m = 0; m < hours.size(); ++m)
         for (std::size_t i = 0; i < lumels; ++i)
-            found.light[m][i] =
-                glm::max(found.light[m][i], 0.0f) + glm::max(light->sun[m][i], 0.0f);
+            found.light[m][i] = glm::max(found.light[m][i], 0.0f) + glm::max(light.sun[m][i], 0.0f);
     return found;
 }
 

@@ -2,12 +2,11 @@
 // Light at lumels in some hours of a year, filtered as that of a bake.
 
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "atlas/prepare/solve_scene.h"
+#include "base/core/progress_callback.h"
 #include "links/direct/solutions.h"
 #include "results/daylight/daylight_year.h"
 
@@ -23,9 +22,9 @@ struct LightOfHours {
 /// Host memory of light_of_hours(), about [bytes].
 std::uint64_t light_of_hours_bytes(std::size_t lumels, std::size_t hours);
 
-/// Empty if progress, 0…1, returns false. All hours must have light.
-std::optional<LightOfHours> light_of_hours(const SolveScene& scene, const DaylightYear& year,
-                                           std::span<const std::size_t> hours, std::uint32_t seed,
-                                           const std::function<bool(double)>& progress);
+/// All hours must have light.
+LightOfHours light_of_hours(const SolveScene& scene, const DaylightYear& year,
+                            std::span<const std::size_t> hours, std::uint32_t seed,
+                            const ProgressCallback& progress);
 
 }  // namespace lumel

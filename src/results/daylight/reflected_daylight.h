@@ -1,32 +1,30 @@
 #pragma once
 // Daylight that lumels send.
 
-#include <functional>
 #include <span>
+#include <vector>
 
 #include <glm/glm.hpp>
 
-#include "results/daylight/daylight_transport.h"
+#include "results/daylight/lumel_coefficients.h"
 
 namespace lumel {
 
 class ReflectedDaylight {
 public:
-    /// Arguments as of DaylightTransport. Throws Error{input} if it does not fit in memory.
+    /// places: unit directions to the sun.
     ReflectedDaylight(const SolveScene& scene, std::span<const glm::vec3> places,
-                      const DaylightTransportOptions& options,
-                      const std::function<bool(double)>& progress = {});
+                      const CoefficientRays& rays, const ProgressCallback& progress = {});
 
-    /// False if progress stopped it.
-    bool is_complete() const { return transport_.is_complete(); }
-    /// Coefficients of a lumel, as of DaylightTransport.
-    std::size_t count() const { return transport_.count(); }
+    /// Sources, as of CoefficientOf.
+    std::size_t count() const { return count_; }
     /// [count()] radiosity [lm/m²] of a lumel, for a luminance of 1 cd/m², and for 1 lx on a plane
     /// that faces the sun.
-    const glm::vec3* of(std::size_t lumel) const { return transport_.of(lumel); }
+    const glm::vec3* of(std::size_t lumel) const { return &sent_[lumel * count_]; }
 
 private:
-    DaylightTransport transport_;
+    std::size_t count_;
+    std::vector<glm::vec3> sent_;  ///< [N][count_]
 };
 
 }  // namespace lumel

@@ -6,7 +6,6 @@
 #include "results/daylight/sky_rays.h"
 
 #include "base/core/frame.h"
-#include "base/core/pi.h"
 #include "base/core/sphere.h"
 
 namespace lumel {
@@ -17,18 +16,16 @@ constexpr std::uint32_t kStartPair = 0, kWayPair = 1, kGlassPair = 2;
 
 }  // namespace
 
-SkyRays::SkyRays(const SolveScene& scene, std::uint32_t count, std::uint32_t seed)
+SkyRays::SkyRays(const SolveScene& scene)
     : scene_(scene),
       world_(scene.scene, scene.rays, scene.lumels),
-      starts_(world_, nullptr, false),
-      count_(count),
-      seed_(seed)
+      starts_(world_, nullptr, false)
 {
 }
 
-std::uint32_t SkyRays::stream_of(std::size_t lumel) const
+std::uint32_t SkyRays::stream_of(std::size_t lumel, std::uint32_t seed) const
 {
-    return PathSamples::hash(seed_, lumel_key(scene_.lumels.lumels[lumel], scene_.lumels.width));
+    return PathSamples::hash(seed, lumel_key(scene_.lumels.lumels[lumel], scene_.lumels.width));
 }
 
 glm::vec3 SkyRays::send(std::size_t lumel, const PathSamples& samples, glm::vec3& direction) const
@@ -37,14 +34,13 @@ glm::vec3 SkyRays::send(std::size_t lumel, const PathSamples& samples, glm::vec3
     direction = frame_about(start.normal) * by_cosine(samples.stratified(kWayPair));
     if (!(direction.y > 0.0f) || !(start.cosine(direction) > 0.0f))
         return glm::vec3(0.0f);
-    return kPi / float(count_) *
-           scene_.rays.transmittance_out(start.position, direction, samples.bits(kGlassPair));
+    return scene_.rays.transmittance_out(start.position, direction, samples.bits(kGlassPair));
 }
 
 glm::vec3 SkyRays::sun(std::size_t lumel, const glm::vec3& to_sun, std::uint32_t number,
-                       std::uint32_t count) const
+                       std::uint32_t count, std::uint32_t seed) const
 {
-    const std::uint32_t stream = PathSamples::hash(stream_of(lumel), number + 1);
+    const std::uint32_t stream = PathSamples::hash(stream_of(lumel, seed), number + 1);
     glm::vec3 sum(0.0f);
     for (std::uint32_t k = 0; k < count; ++k) {
         const PathSamples samples(stream, k);
