@@ -18,16 +18,18 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// Light from 10 to 14 o'clock.
-std::string short_days()
+/// Light from 10 to 14 o'clock. february: its days.
+std::string short_days(int february = 28)
 {
-    return support::weather_text([](int hour) {
-        const int of_day = hour % 24;
-        return of_day < 10 || of_day >= 14
-                   ? support::WeatherOfHour{}
-                   : support::WeatherOfHour{.direct = hour / 24 % 3 == 0 ? 500.0 : 0.0,
-                                            .diffuse = 100.0 + 10.0 * of_day};
-    });
+    return support::weather_text(
+        [](int hour) {
+            const int of_day = hour % 24;
+            return of_day < 10 || of_day >= 14
+                       ? support::WeatherOfHour{}
+                       : support::WeatherOfHour{.direct = hour / 24 % 3 == 0 ? 500.0 : 0.0,
+                                                .diffuse = 100.0 + 10.0 * of_day};
+        },
+        47.5, 19.0, 1.0, february);
 }
 
 std::vector<std::string> bake_of(const std::string& scene, const std::string& folder,
@@ -63,6 +65,7 @@ TEST(DaylightFiles, HaveWeightsOfTheirMapsForEachHourWithLight)
     EXPECT_NEAR(daylight["place"]["latitude"].get<double>(), 47.5, 1e-9);
     EXPECT_LE(daylight["error"].get<double>(), 0.01);
     const Json report = Json::parse(bytes_of(out + "/report.json"));
+    EXPECT_EQ(report["settings"]["daylight"], fs::absolute(weather).string());
     const auto files = report["files"].get<std::vector<std::string>>();
     std::set<std::string> named;
     for (const Json& map : daylight["maps"]) {
@@ -101,6 +104,57 @@ TEST(DaylightFiles, HaveWeightsOfTheirMapsForEachHourWithLight)
     ASSERT_EQ(run_lumel(bake_of("office.gltf", out)).code, 0);
     EXPECT_TRUE(maps_in(out).empty());
     EXPECT_FALSE(fs::exists(out + "/daylight.json"));
+}
+
+/// A leap year, on pages, in 16 bits: what one bake writes, the page reads.
+TEST(DaylightFiles, AreOnEachPageOfABakeAndHaveEachDayOfALeapYear)
+{
+    const Workplace place;
+    const std::string weather = place.file("made.epw", short_days(29)), out = place.path("out");
+    const Outcome baked =
+        run_lumel({"bake", own_scene("office.gltf"), out, "--max-size", "48", "--pages", "4",
+                   "--texels-per-metre", "6", "--links", "12", "--preview-width", "0", "--half",
+                   "--daylight", weather, "-q"});
+    ASSERT_EQ(baked.code, 0) << baked.err;
+    const Json daylight = Json::parse(bytes_of(out + "/daylight.json"));
+    ASSERT_EQ(daylight["hours"].size(), 4u * 366u);
+    const auto is_leap_noon = [](const Json& hour) { return hour["hour"] == "02-29T12"; };
+    EXPECT_EQ(std::count_if(daylight["hours"].begin(), daylight["hours"].end(), is_leap_noon), 1);
+    const Json report = Json::parse(bytes_of(out + "/report.json"));
+    const int pages = report["sizes"]["pages"];
+    ASSERT_GT(pages, 1);
+    EXPECT_EQ(maps_in(out).size(), std::size_t(pages) * daylight["maps"].size());
+    for (const Json& map : daylight["maps"]) {
+        const auto first = map["map"].get<std::string>();
+        ASSERT_TRUE(first.ends_with("-0.exr")) << first;
+        for (int page = 0; page < pages; ++page) {
+            const std::string name =
+                first.substr(0, first.size() - 5) + std::to_string(page) + ".exr";
+            const Image light = read_exr(out + "/" + name);
+            EXPECT_EQ(light.width, 48) << name;
+            EXPECT_GT(*std::max_element(light.values.begin(), light.values.end()), 10.0f) << name;
+            EXPECT_NE(bytes_of(out + "/" + name).find("half"), std::string::npos) << name;
+        }
+    }
+    const Outcome page = run_lumel({"report", out, "-q"});
+    EXPECT_EQ(page.code, 0) << page.err;
+}
+
+/// The bake itself is done by then.
+TEST(DaylightFiles, AreNoneAfterCtrlCButTheLightmapIs)
+{
+    const Workplace place;
+    const std::string weather = place.file("made.epw", short_days()), out = place.path("out");
+    std::vector<std::string> arguments = bake_of("office.gltf", out, {"--daylight", weather});
+    std::erase(arguments, "-q");
+    const Outcome baked = run_lumel(arguments, {.interrupt_at = "daylight"});
+    EXPECT_EQ(baked.code, 130) << baked.err;
+    EXPECT_NE(baked.err.find("stopped before the maps of daylight were made"), std::string::npos)
+        << baked.err;
+    EXPECT_TRUE(fs::exists(out + "/lightmap.exr"));
+    EXPECT_FALSE(fs::exists(out + "/daylight.json"));
+    EXPECT_TRUE(maps_in(out).empty());
+    EXPECT_TRUE(Json::parse(bytes_of(out + "/report.json"))["solution"]["interrupted"]);
 }
 
 TEST(DaylightFiles, AreRefusedInOneSentenceWithoutAWholeYear)

@@ -12,11 +12,12 @@ struct WeatherOfHour {
 };
 
 /// An EPW file of 2001. of(hour of the year from 0): a WeatherOfHour. zone: hours before UTC.
+/// february: its days.
 template <class Of>
 std::string weather_text(const Of& of, double latitude = 47.5, double longitude = 19.0,
-                         double zone = 1.0)
+                         double zone = 1.0, int february = 28)
 {
-    constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    const int days[] = {31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
     std::string text = "LOCATION,Test,-,-,made,0," + std::to_string(latitude) + "," +
                        std::to_string(longitude) + "," + std::to_string(zone) +
                        ",100\nDESIGN CONDITIONS,0\nTYPICAL/EXTREME PERIODS,0\n"
@@ -25,7 +26,7 @@ std::string weather_text(const Of& of, double latitude = 47.5, double longitude 
                        "DATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n";
     int number = 0;
     for (int month = 1; month <= 12; ++month)
-        for (int day = 1; day <= kDays[month - 1]; ++day)
+        for (int day = 1; day <= days[month - 1]; ++day)
             for (int hour = 1; hour <= 24; ++hour, ++number) {
                 const WeatherOfHour is = of(number);
                 text += "2001," + std::to_string(month) + "," + std::to_string(day) + "," +

@@ -8,15 +8,31 @@
 
 namespace lumel {
 
+namespace {
+
+/// indent: -1 for one line.
+std::string text_of(const Json& json, int indent)
+{
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
 std::string json_text(const Json& json)
 {
     constexpr int kIndent = 2;
-    return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n";
+    return text_of(json, kIndent);
 }
 
 void write_json(const std::string& path, const Json& json)
 {
     write_text(path, json_text(json));
+}
+
+void write_compact_json(const std::string& path, const Json& json)
+{
+    constexpr int kOneLine = -1;
+    write_text(path, text_of(json, kOneLine));
 }
 
 Json read_json(const std::string& path)

@@ -15,6 +15,8 @@ std::string json_text(const Json& json);
 
 /// Writes that text to a file. Throws Error{output}.
 void write_json(const std::string& path, const Json& json);
+/// On one line, for long lists of numbers.
+void write_compact_json(const std::string& path, const Json& json);
 
 /// Reads a file. Throws Error{input} if it is unreadable, and with line and column for broken JSON.
 Json read_json(const std::string& path);

@@ -85,7 +85,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
 
     std::optional<DaylightMaps> daylight;
     if (wanted_daylight)
-        daylight = make_daylight_maps(*wanted_daylight, setting.prepared,
+        daylight = make_daylight_maps(*wanted_daylight, setting.prepared, options.atlas,
                                       std::uint32_t(seed_of(options.solver.method)), stages);
 
     const bool stopped = stages.stopped();

@@ -46,21 +46,10 @@ std::vector<Image> finished(const SolveScene& prepared, const DaylightMaps& maps
     return std::move(found.layers);
 }
 
-/// Means of many lumels decide on the hours: the more there are, the fewer rays each needs.
-CoefficientRays rays_of(std::uint32_t seed, std::size_t lumels)
-{
-    constexpr std::size_t kRaysOfAll = 3'000'000;
-    CoefficientRays rays{.seed = seed};
-    for (std::uint32_t* count : {&rays.sky, &rays.links})
-        for (int halvings = 0; halvings < 2 && *count * lumels > kRaysOfAll; ++halvings)
-            *count /= 2;
-    return rays;
-}
-
 /// Rounded to what daylight.json keeps.
 double digits(double value)
 {
-    return std::stod(fmt::format("{:.6g}", value));
+    return std::stod(fmt::format("{:.5g}", value));
 }
 
 /// In the order of the calendar: a year of weather may begin in any month.
@@ -76,8 +65,11 @@ Json hours_of(const WantedDaylight& wanted, const DaylightMaps& maps)
         Json weights = Json::array();
         for (std::size_t k = 0; k < count; ++k)
             weights.push_back(digits(double(maps.weights[h * count + k])));
+        Json direction = Json::array();
+        for (int axis = 0; axis < 3; ++axis)
+            direction.push_back(digits(double(sun.direction[axis])));
         rows.push_back({{"hour", name_of(wanted.weather().hours[year.number(h)])},
-                        {"sun", json_array(glm::dvec3(sun.direction))},
+                        {"sun", direction},
                         {"lux", digits(double(sun.lux))},
                         {"mean", digits(std::max(maps.mean[h], 0.0))},
                         {"error", digits(maps.errors[h])},
@@ -116,16 +108,15 @@ void WantedDaylight::check_memory(const SolveScene& prepared, std::uint64_t limi
 }
 
 std::optional<DaylightMaps> make_daylight_maps(const WantedDaylight& wanted,
-                                               const SolveScene& prepared, std::uint32_t seed,
+                                               const SolveScene& prepared,
+                                               const AtlasOptions& options, std::uint32_t seed,
                                                Stages& stages)
 {
     stages.begin("daylight");
     DaylightMaps maps;
     try {
         if (!unless_stopped([&] {
-                maps =
-                    daylight_maps(prepared, wanted.year(),
-                                  rays_of(seed, prepared.lumels.lumels.size()), stages.callback());
+                maps = daylight_maps(prepared, options, wanted.year(), seed, stages.callback());
             })) {
             stages.tell("the bake was stopped before the maps of daylight were made");
             return std::nullopt;
@@ -167,13 +158,14 @@ std::vector<std::string> write_daylight(const OutputFolder& folder, const BakeOp
         rows.push_back(
             {{"hour", hour}, {"unit", "lx"}, {"map", page_name(pages, 0, name) + ".exr"}});
     }
-    write_json(folder.path(kDaylightFile), {{"place",
-                                             {{"name", weather.city},
-                                              {"latitude", glm::degrees(weather.latitude)},
-                                              {"longitude", glm::degrees(weather.longitude)}}},
-                                            {"error", maps.error},
-                                            {"maps", rows},
-                                            {"hours", hours_of(wanted, maps)}});
+    write_compact_json(folder.path(kDaylightFile),
+                       {{"place",
+                         {{"name", weather.city},
+                          {"latitude", glm::degrees(weather.latitude)},
+                          {"longitude", glm::degrees(weather.longitude)}}},
+                        {"error", maps.error},
+                        {"maps", rows},
+                        {"hours", hours_of(wanted, maps)}});
     files.emplace_back(kDaylightFile);
     stages.tell(fmt::format("{} maps of daylight; their sums are that of all hours of the year "
                             "within {}, but for direct light of the sun",

@@ -30,9 +30,11 @@ private:
     DaylightYear year_;
 };
 
-/// The maps, in a stage of its own; empty if the caller stopped, and if there is no light.
+/// The maps, in a stage of its own; options: of the atlas; empty if the caller stopped, and if
+/// there is no light.
 std::optional<DaylightMaps> make_daylight_maps(const WantedDaylight& wanted,
-                                               const SolveScene& prepared, std::uint32_t seed,
+                                               const SolveScene& prepared,
+                                               const AtlasOptions& options, std::uint32_t seed,
                                                Stages& stages);
 
 /// Writes the maps and daylight.json. irradiance [N]: of the lightmap; decides, if there is any,

@@ -1,6 +1,7 @@
 #include "jobs/bake/outputs.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 
@@ -199,6 +200,8 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const S
     record.files.insert(record.files.end(), more.begin(), more.end());
     Report facts = bake_report(record, prepared, device, solver, results, stages);
     facts.preview = preview_row(written, prepared.scene);
+    if (!more.empty())
+        facts.settings["daylight"] = std::filesystem::absolute(options.daylight).string();
     const Json report = to_json(facts);
     write_json(folder.path(kReportFile), report);
     return {.shots = results.shots,

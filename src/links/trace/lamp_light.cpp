@@ -169,8 +169,9 @@ std::vector<glm::vec3> LinkRadiosity::reflected(std::span<const glm::vec3> direc
     return mean;
 }
 
-double LinkRadiosity::filter_outside(const OutsideLight& whole, std::span<Estimates> direct,
-                                     std::span<Estimates> reflected)
+std::array<Mean, 2> LinkRadiosity::filter_outside(const OutsideLight& whole,
+                                                  std::span<Estimates> direct,
+                                                  std::span<Estimates> reflected)
 {
     const std::size_t count = work_.lumels().size();
     std::vector<glm::vec3> lanes(count * kLampLanes, glm::vec3(0.0f));
@@ -183,18 +184,7 @@ double LinkRadiosity::filter_outside(const OutsideLight& whole, std::span<Estima
             solutions[k].push_back(found.light[k][i * kLampLanes]);
     filter()->indirect_parts(solutions, reflected);
     filter()->direct_parts(whole.one, whole.other, direct);
-    const Mean of_links = filter()->indirect(solutions),
-               of_sky = filter()->direct(whole.one, whole.other);
-    SquaredError by_links, by_sky;
-    double squares = 0.0;
-    for (std::size_t i = 0; i < count; ++i)
-        if (!work_.is_buried(i)) {
-            const glm::vec3 light = of_links.light[i] + of_sky.light[i];
-            by_links.add(of_links, i);
-            by_sky.add(of_sky, i);
-            squares += double(glm::dot(light, light));
-        }
-    return squares > 0.0 ? std::sqrt((by_links.sum() + by_sky.sum()) / squares) : 0.0;
+    return {filter()->indirect(solutions), filter()->direct(whole.one, whole.other)};
 }
 
 /// Scales the lamps of each lumel so that they add up to its light: their sweeps end at a residual,

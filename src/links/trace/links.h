@@ -116,8 +116,8 @@ public:
     };
     /// After the last step, with LinksOptions::filter: filters maps of the direct and the reflected
     /// light of such sources in place, with the gains of `whole`, so that sums of maps stay sums.
-    /// Returns the estimated error of `whole` as filtered, relative to its RMS light.
-    double filter_outside(const OutsideLight& whole, std::span<Estimates> direct,
+    /// Returns `whole` as filtered: reflected light, then direct.
+    std::array<Mean, 2> filter_outside(const OutsideLight& whole, std::span<Estimates> direct,
                           std::span<Estimates> reflected);
     /// Links to store for a later run, after a round has ended. hash: Scene::hash.
     StoredLinks kept(const std::string& hash) const;

@@ -21,49 +21,66 @@ constexpr double kRounding = 1e-6;
 /// others: its weights would multiply noise.
 constexpr double kMapNoise = 0.03 * 0.03;
 
-/// The hours' light as rows [hours][n].
+using Row = std::vector<double>;
+
+/// The hours' light [hours][n].
+std::vector<Row> light_rows(std::span<const float> root, std::span<const float> sources,
+                            std::uint32_t n)
+{
+    std::vector<Row> rows(sources.size() / n, Row(n));
+    std::vector<float> light(sources.size());
+    blas::product({sources, std::uint32_t(rows.size()), n}, blas::transposed(root, n, n), light);
+    for (std::size_t h = 0; h < rows.size(); ++h)
+        std::copy_n(&light[h * n], n, rows[h].begin());
+    return rows;
+}
+
+/// What is left of the hours' light, as rows R [hours][n], and of its products Rᵀ R [n][n]. In
+/// doubles: what is found of small parts is a difference of large ones.
 class Rows {
 public:
     Rows(std::span<const float> root, std::span<const float> sources, std::uint32_t n)
-        : n_(n),
-          count_(std::uint32_t(sources.size() / n)),
-          left_(sources.size()),
-          lengths_(count_),
-          parts_(count_)
+        : left_(light_rows(root, sources, n)),
+          products_(n, Row(n)),
+          parts_(left_.size())
     {
-        blas::product({sources, count_, n_}, blas::transposed(root, n_, n_), left_);
-        for (std::size_t h = 0; h < count_; ++h) {
-            lengths_[h] = std::sqrt(dot(row(h), row(h)));
+        for (std::size_t h = 0; h < left_.size(); ++h) {
+            lengths_.push_back(std::sqrt(left(h)));
             lit_ += lengths_[h] > 0.0 ? 1.0 : 0.0;
-            for (float& one : row(h))
-                one *= lengths_[h] > 0.0 ? float(1.0 / lengths_[h]) : 0.0f;
+            for (double& one : left_[h])
+                one *= lengths_[h] > 0.0 ? 1.0 / lengths_[h] : 0.0;
+            for (std::size_t k = 0; k < n; ++k)
+                for (std::size_t j = 0; j < n; ++j)
+                    products_[k][j] += left_[h][k] * left_[h][j];
         }
+        for (const Row& row : left_)
+            taken_.push_back(dot(row, multiplied(row)));
     }
 
-    std::size_t count() const { return count_; }
+    std::size_t count() const { return left_.size(); }
     double length(std::size_t h) const { return lengths_[h]; }
     /// Parts of an hour along the basis.
     std::span<const double> parts(std::size_t h) const { return parts_[h]; }
 
     /// Squared length left of an hour.
-    double left(std::size_t h) const { return dot(row(h), row(h)); }
+    double left(std::size_t h) const { return dot(left_[h], left_[h]); }
     /// Mean of these.
-    double left() const { return lit_ > 0.0 ? dot(left_, left_) / lit_ : 0.0; }
+    double left() const
+    {
+        double sum = 0.0;
+        for (const Row& row : left_)
+            sum += dot(row, row);
+        return lit_ > 0.0 ? sum / lit_ : 0.0;
+    }
 
     /// The next hour; count() if only rounding is left.
     std::size_t best() const
     {
-        std::vector<float> squares(std::size_t(n_) * n_), along(left_.size());
-        blas::product(blas::transposed(left_, count_, n_), {left_, count_, n_}, squares);
-        blas::product({left_, count_, n_}, {squares, n_, n_}, along);
-        std::size_t found = count_;
+        std::size_t found = count();
         double most = 0.0;
-        for (std::size_t h = 0; h < count_; ++h) {
-            const double own = dot(row(h), row(h));
-            const double taken =
-                own > kRounding
-                    ? dot(row(h), std::span(along).subspan(h * n_, n_)) / (own + kMapNoise)
-                    : 0.0;
+        for (std::size_t h = 0; h < count(); ++h) {
+            const double own = left(h);
+            const double taken = own > kRounding ? taken_[h] / (own + kMapNoise) : 0.0;
             if (taken > most) {
                 most = taken;
                 found = h;
@@ -72,27 +89,41 @@ public:
         return found;
     }
 
+    /// Takes the part along an hour's row, of direction a, from all rows r: r - (r·a) a. taken_
+    /// and products_ follow, since aᵀ Rᵀ R is known.
     void take(std::size_t chosen)
     {
-        std::vector<float> axis(row(chosen).begin(), row(chosen).end());
+        Row axis = left_[chosen];
         const double length = std::sqrt(dot(axis, axis));
-        for (float& one : axis)
-            one = float(double(one) / length);
-        for (std::size_t h = 0; h < count_; ++h) {
-            const double part = dot(row(h), axis);
+        for (double& one : axis)
+            one /= length;
+        const Row along = multiplied(axis);
+        const double whole = dot(axis, along);
+        for (std::size_t h = 0; h < count(); ++h) {
+            const double part = dot(left_[h], axis);
             parts_[h].push_back(part);
-            for (std::size_t k = 0; k < n_; ++k)
-                row(h)[k] -= float(part) * axis[k];
+            taken_[h] += part * (part * whole - 2.0 * dot(left_[h], along));
+            for (std::size_t k = 0; k < axis.size(); ++k)
+                left_[h][k] -= part * axis[k];
         }
+        for (std::size_t k = 0; k < axis.size(); ++k)
+            for (std::size_t j = 0; j < axis.size(); ++j)
+                products_[k][j] +=
+                    axis[k] * axis[j] * whole - axis[k] * along[j] - along[k] * axis[j];
     }
 
 private:
-    std::span<const float> row(std::size_t h) const { return std::span(left_).subspan(h * n_, n_); }
-    std::span<float> row(std::size_t h) { return std::span(left_).subspan(h * n_, n_); }
+    Row multiplied(const Row& row) const
+    {
+        Row found;
+        for (const Row& products : products_)
+            found.push_back(dot(products, row));
+        return found;
+    }
 
-    std::uint32_t n_, count_;
-    std::vector<float> left_;
-    std::vector<double> lengths_;
+    std::vector<Row> left_, products_;
+    std::vector<double> taken_;    ///< |R r|² of each row r
+    std::vector<double> lengths_;  ///< at first
     double lit_ = 0.0;
     std::vector<std::vector<double>> parts_;
 };
@@ -159,10 +190,13 @@ std::vector<double> relative_difference(std::span<const float> root, std::span<c
     std::vector<float> difference(sources.begin(), sources.end());
     for (std::size_t k = 0; k < difference.size(); ++k)
         difference[k] -= others[k];
-    const Rows light(root, sources, source_count), apart(root, difference, source_count);
+    const std::vector<Row> light = light_rows(root, sources, source_count),
+                           apart = light_rows(root, difference, source_count);
     std::vector<double> found;
-    for (std::size_t h = 0; h < light.count(); ++h)
-        found.push_back(light.length(h) > 0.0 ? apart.length(h) / light.length(h) : 0.0);
+    for (std::size_t h = 0; h < light.size(); ++h) {
+        const double square = dot(light[h], light[h]);
+        found.push_back(square > 0.0 ? std::sqrt(dot(apart[h], apart[h]) / square) : 0.0);
+    }
     return found;
 }
 

@@ -1,5 +1,4 @@
-// 1. lumel_coefficients() of 145 patches and of positions of the sun, of low noise in the mean of
-//    squares of charts.
+// 1. lumel_coefficients() of 145 patches and of positions of the sun, at lumels of a coarser atlas.
 // 2. These, times the strengths of hours, decide on the hours.
 // 3. Their maps are solved for on their own, with the sun where it is, and those of a few other
 //    hours, from which their sums differ by the error.
@@ -7,28 +6,29 @@
 #include "results/daylight/daylight_maps.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 #include "base/core/luminance.h"
+#include "base/core/pi.h"
 #include "links/trace/links.h"
 #include "results/daylight/chosen_hours.h"
+#include "results/daylight/error_weights.h"
 #include "results/daylight/light_of_hours.h"
+#include "results/daylight/lumel_coefficients.h"
 #include "scene/sky/sky_patches.h"
 
 namespace lumel {
 namespace {
 
-/// Side of the squares [texels]: fine noise is not in their means.
-constexpr std::uint32_t kSquare = 8;
+/// Width of lumels that decide on the hours, at most, and their least number.
+constexpr double kCoarser = 8.0, kLeastCoarse = 4096.0;
 /// Part of the difference from a grid of the sun twice as wide that is the error of this: errors of
 /// linear interpolation are as the square of the step.
 constexpr double kOfWideError = 1.0 / 3.0;
 /// Hours that tell the error of the sums: as many as links carry at once.
 constexpr std::size_t kControls = kLampLanes;
 /// Share of the work, for the progress bar only.
-constexpr double kBeforeMaps = 0.5;
+constexpr double kBeforeMaps = 0.1;
 
 /// [hours][sources] Source strengths of each hour; grid: of the sun.
 std::vector<float> strengths_of(const DaylightYear& year, DaylightYear::Sun::Grid grid)
@@ -41,61 +41,28 @@ std::vector<float> strengths_of(const DaylightYear& year, DaylightYear::Sun::Gri
     return strengths;
 }
 
-/// Sums of coefficients over the lumels of squares, by area.
-class Squares {
-public:
-    Squares(const SolveScene& scene, std::size_t count) : scene_(scene), count_(count)
-    {
-        std::map<std::array<std::uint32_t, 4>, std::size_t> numbers;
-        const std::uint32_t width = scene.lumels.width;
-        for (const Lumel& lumel : scene.lumels.lumels) {
-            const bool is_open = !(lumel.flags & kLumelBuried);
-            of_lumel_.push_back(is_open ? numbers
-                                              .try_emplace({lumel.chart, lumel.flags & kLumelBack,
-                                                            lumel.texel % width / kSquare,
-                                                            lumel.texel / width / kSquare},
-                                                           numbers.size())
-                                              .first->second
-                                        : kNone);
-        }
-        sums_.resize(numbers.size() * count, glm::dvec3(0.0));
-        areas_.resize(numbers.size(), 0.0);
-        for (std::size_t i = 0; i < of_lumel_.size(); ++i)
-            if (of_lumel_[i] != kNone)
-                areas_[of_lumel_[i]] += double(scene.lumels.lumels[i].area);
-    }
+/// Of the same scene, with lumels up to kCoarser times as wide.
+AtlasOptions coarser(AtlasOptions options, const SolveScene& scene)
+{
+    const auto wider = float(
+        std::clamp(std::sqrt(double(scene.lumels.lumels.size()) / kLeastCoarse), 1.0, kCoarser));
+    options.texels_per_metre = scene.atlas.texels_per_metre / wider;
+    options.size = 0;
+    options.max_size = AtlasOptions().max_size;
+    options.pages = 1;
+    for (DensityRule& rule : options.densities)
+        rule.texels_per_metre /= wider;
+    return options;
+}
 
-    /// Adds coefficients [N][count].
-    void add(std::span<const glm::vec3> coefficients)
-    {
-        for (std::size_t i = 0; i < of_lumel_.size(); ++i)
-            for (std::size_t k = 0; of_lumel_[i] != kNone && k < count_; ++k)
-                sums_[of_lumel_[i] * count_ + k] +=
-                    double(scene_.lumels.lumels[i].area) * glm::dvec3(coefficients[i * count_ + k]);
-    }
-
-    /// [3 squares][count] Means by the root of the area.
-    std::vector<float> coefficients() const
-    {
-        std::vector<float> found;
-        for (std::size_t square = 0; square < areas_.size(); ++square)
-            for (int c = 0; c < 3; ++c)
-                for (std::size_t k = 0; k < count_; ++k)
-                    found.push_back(areas_[square] > 0.0 ? float(sums_[square * count_ + k][c] /
-                                                                 std::sqrt(areas_[square]))
-                                                         : 0.0f);
-        return found;
-    }
-
-private:
-    static constexpr std::size_t kNone = ~std::size_t(0);
-
-    const SolveScene& scene_;
-    std::vector<std::size_t> of_lumel_;  ///< [N]
-    std::vector<glm::dvec3> sums_;       ///< [squares][count]
-    std::vector<double> areas_;          ///< [squares]
-    std::size_t count_;
-};
+/// The more lumels, the fewer rays each needs: all of them decide.
+CoefficientRays rays_of(std::size_t lumels, std::uint32_t seed)
+{
+    const auto share = [&](std::size_t rays, std::size_t least, std::size_t most) {
+        return std::uint32_t(std::clamp(rays / (lumels + 1), least, most));
+    };
+    return {.sky = share(4'000'000, 256, 2048), .links = share(2'000'000, 128, 1024), .seed = seed};
+}
 
 /// Mean over the area of all surfaces [lx].
 double mean_of(const SolveScene& scene, const Estimates& light)
@@ -124,23 +91,23 @@ std::vector<std::size_t> control_hours(const ChosenHours& chosen, const Daylight
 }
 
 /// RMS error of sums of maps at lumels in the control hours, relative to that by `errors`, which
-/// are of means of squares; at least 1. light: of the chosen hours, then of the controls.
-double measured_by_stated(const SolveScene& scene, const ChosenHours& chosen,
-                          std::span<const double> errors, std::span<const std::size_t> controls,
-                          std::span<const Estimates> light)
+/// are of coarser lumels; at least 1. light: of the chosen hours, then of the controls.
+double measured_by_stated(const ChosenHours& chosen, std::span<const double> errors,
+                          std::span<const std::size_t> controls, const LightOfHours& found)
 {
     const std::size_t count = chosen.hours.size();
+    const std::vector<Estimates>& light = found.light;
     double measured = 0.0, stated = 0.0;
     for (std::size_t k = 0; k < controls.size(); ++k) {
         const std::size_t hour = controls[k];
         double wrong = 0.0, all = 0.0;
         for (std::size_t i = 0; i < light[count + k].size(); ++i) {
-            const double area = double(scene.lumels.lumels[i].area);
+            const double weight = double(found.weights[i]);
             glm::vec3 apart = light[count + k][i];
-            all += area * double(glm::dot(apart, apart));
+            all += weight * double(glm::dot(apart, apart));
             for (std::size_t m = 0; m < count; ++m)
                 apart -= chosen.weights[hour * count + m] * light[m][i];
-            wrong += area * double(glm::dot(apart, apart));
+            wrong += weight * double(glm::dot(apart, apart));
         }
         measured += all > 0.0 ? wrong / all : 0.0;
         stated += errors[hour] * errors[hour];
@@ -148,38 +115,71 @@ double measured_by_stated(const SolveScene& scene, const ChosenHours& chosen,
     return stated > 0.0 ? std::sqrt(std::max(measured / stated, 1.0)) : 1.0;
 }
 
-/// Root of the light in means of squares: direct light of the sky, reflected light of sky and sun.
-std::vector<float> root_of_squares(const SolveScene& scene, const DaylightYear& year,
-                                   const CoefficientRays& rays, const ProgressCallback& progress)
+/// [sources] Strengths in a typical hour: the sum of all, each relative to its open ground.
+std::vector<double> typical_strengths(const DaylightYear& year, std::span<const float> strengths)
 {
-    const std::size_t patches = SkyPatches().count(), count = patches + year.sun_places().size();
-    Squares squares(scene, count);
-    squares.add(lumel_coefficients(
-        scene, year.sun_places(), rays,
-        [&](std::size_t, std::size_t source, const glm::vec3& direct, const glm::vec3& reflected) {
-            return source < patches ? direct + reflected : reflected;
+    const std::size_t count = strengths.size() / year.hours();
+    std::vector<double> typical(count, 0.0);
+    for (std::size_t h = 0; h < year.hours(); ++h) {
+        const double lux = year.open_ground(h);
+        for (std::size_t k = 0; k < count && lux > 0.0; ++k)
+            typical[k] += double(strengths[h * count + k]) / lux;
+    }
+    return typical;
+}
+
+/// Root of direct light of the sky and of reflected light of sky and sun at the lumels, with their
+/// error_weights(). strengths [hours][sources].
+std::vector<float> root_of(const SolveScene& scene, const DaylightYear& year,
+                           std::span<const float> strengths, std::uint32_t seed,
+                           const ProgressCallback& progress)
+{
+    const std::size_t lumels = scene.lumels.lumels.size(), patches = SkyPatches().count();
+    const std::vector<double> typical = typical_strengths(year, strengths);
+    std::vector<float> of_sky(lumels, 0.0f), light(lumels, 0.0f);
+    const std::vector<glm::vec3> found = lumel_coefficients(
+        scene, year.sun_places(), rays_of(lumels, seed),
+        [&](std::size_t i, std::size_t source, const glm::vec3& direct,
+            const glm::vec3& reflected) {
+            const bool is_sky = source < patches;
+            of_sky[i] += is_sky ? float(luminance(direct)) : 0.0f;
+            const glm::vec3 both = is_sky ? direct + reflected : reflected;
+            light[i] += float(typical[source] * luminance(both));
+            return both;
         },
-        progress));
-    return light_root(squares.coefficients(), std::uint32_t(count));
+        progress);
+    std::vector<char> open;
+    for (const float lux : of_sky)  // of a luminance of 1 cd/m²: π lx in the open
+        open.push_back(double(lux) > kOpenToSky * double(kPi) ? 1 : 0);
+    const std::vector<float> weights = error_weights(scene, light, open);
+    std::vector<float> rows;  // of red, green and blue at each lumel
+    rows.reserve(3 * found.size());
+    for (std::size_t i = 0; i < lumels; ++i)
+        for (int c = 0; c < 3; ++c)
+            for (std::size_t k = 0; k < typical.size(); ++k)
+                rows.push_back(std::sqrt(weights[i]) * found[i * typical.size() + k][c]);
+    return light_root(rows, std::uint32_t(typical.size()));
 }
 
 }  // namespace
 
 std::uint64_t daylight_map_bytes(std::size_t lumels, std::size_t places, std::size_t texels)
 {
-    const std::uint64_t coefficients = lumel_coefficient_bytes(lumels, places);
+    const auto coarse = std::size_t(kLeastCoarse + double(lumels) / (kCoarser * kCoarser));
+    const std::uint64_t coefficients = lumel_coefficient_bytes(coarse, places);
     const std::uint64_t light = kMostDaylightMaps * lumels * sizeof(glm::vec3);
     const std::uint64_t hours = light_of_hours_bytes(lumels, kMostDaylightMaps + kControls);
     const std::uint64_t finished = light + kMostDaylightMaps * texels * sizeof(glm::vec4);
     return std::max({coefficients, hours, finished});
 }
 
-DaylightMaps daylight_maps(const SolveScene& scene, const DaylightYear& year,
-                           const CoefficientRays& rays, const ProgressCallback& progress)
+DaylightMaps daylight_maps(const SolveScene& scene, const AtlasOptions& options,
+                           const DaylightYear& year, std::uint32_t seed,
+                           const ProgressCallback& progress)
 {
-    const std::vector<float> root =
-        root_of_squares(scene, year, rays, part_of(progress, 0.0, kBeforeMaps));
     const std::vector<float> strengths = strengths_of(year, &DaylightYear::Sun::near);
+    const std::vector<float> root = root_of(SolveScene(scene.scene, coarser(options, scene)), year,
+                                            strengths, seed, part_of(progress, 0.0, kBeforeMaps));
     const auto count = std::uint32_t(SkyPatches().count() + year.sun_places().size());
     ChosenHours chosen = choose_hours(root, strengths, count, kMapsError, kMostDaylightMaps);
     const std::vector<double> by_places =
@@ -194,14 +194,15 @@ DaylightMaps daylight_maps(const SolveScene& scene, const DaylightYear& year,
     std::vector<std::size_t> solved = chosen.hours;
     solved.insert(solved.end(), controls.begin(), controls.end());
     LightOfHours light =
-        light_of_hours(scene, year, solved, rays.seed, part_of(progress, kBeforeMaps, 1.0));
-    const double more = measured_by_stated(scene, chosen, errors, controls, light.light);
+        light_of_hours(scene, year, solved, seed, part_of(progress, kBeforeMaps, 1.0));
+    const double more = measured_by_stated(chosen, errors, controls, light);
     light.light.resize(chosen.hours.size());
 
     DaylightMaps maps{.hours = std::move(chosen.hours),
                       .light = std::move(light.light),
                       .weights = std::move(chosen.weights),
                       .mean = std::vector<double>(year.hours(), 0.0),
+                      .lumel_weights = std::move(light.weights),
                       .error = chosen.error,
                       .errors = std::move(errors)};
     for (double& error : maps.errors)

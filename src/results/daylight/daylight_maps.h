@@ -7,7 +7,6 @@
 #include "base/core/progress_callback.h"
 #include "links/direct/solutions.h"
 #include "results/daylight/daylight_year.h"
-#include "results/daylight/lumel_coefficients.h"
 
 namespace lumel {
 
@@ -22,17 +21,21 @@ struct DaylightMaps {
     std::vector<Estimates> light;    ///< [K][N] irradiance [lx]
     std::vector<float> weights;      ///< [hours of the year][K], of any sign
     std::vector<double> mean;        ///< [hours of the year] mean over all surfaces [lx]
-    double error = 0.0;              ///< that is due to the number of maps, as in ChosenHours
-    /// [hours of the year] Estimated error by that, by the positions of the sun and by rays,
-    /// relative to the hour's RMS light.
+    /// [N] What each lumel counts in errors, see error_weights.h; they are relative to the hour's
+    /// light.
+    std::vector<float> lumel_weights;
+    double error = 0.0;  ///< that is due to the number of maps, as in ChosenHours
+    /// [hours of the year] Estimated error by that, by the positions of the sun and by rays.
     std::vector<double> errors;
 };
 
 /// Host memory of daylight_maps() and of finished maps of its result, about [bytes].
 std::uint64_t daylight_map_bytes(std::size_t lumels, std::size_t places, std::size_t texels);
 
-/// rays: of the coefficients that decide on the hours. Throws Error{input} without OpenBLAS.
-DaylightMaps daylight_maps(const SolveScene& scene, const DaylightYear& year,
-                           const CoefficientRays& rays, const ProgressCallback& progress = {});
+/// options: of the scene's atlas; a coarser one decides on the hours. Throws Error{input} without
+/// OpenBLAS.
+DaylightMaps daylight_maps(const SolveScene& scene, const AtlasOptions& options,
+                           const DaylightYear& year, std::uint32_t seed,
+                           const ProgressCallback& progress = {});
 
 }  // namespace lumel

@@ -6,9 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "base/core/luminance.h"
 #include "base/core/parallel.h"
+#include "links/filter/mean.h"
 #include "links/trace/links.h"
+#include "results/daylight/error_weights.h"
 #include "results/daylight/sky_rays.h"
 #include "scene/sky/sky_patches.h"
 
@@ -28,6 +32,7 @@ constexpr double kSkyPart = 0.4, kLinkedPart = 0.6;
 struct DirectOfHours {
     std::vector<Estimates> sky, sun;  ///< [hours][N]
     std::array<Estimates, 2> halves;  ///< [N] of the sky in a typical hour, by half of the rays
+    std::vector<char> open;           ///< [N]
 };
 
 /// Traces direct light of hours.
@@ -58,11 +63,14 @@ public:
 
     void find(std::size_t lumel, DirectOfHours& light) const
     {
+        std::uint32_t left = 0;
         for (std::uint32_t half = 0; half < light.halves.size(); ++half)
             rays_.visit(lumel, kToSky / 2, PathSamples::hash(seed_, half),
                         [&](const glm::vec3& direction, const glm::vec3& found) {
+                            ++left;
                             add(lumel, half, year_.patches().at(direction), found, light);
                         });
+        light.open[lumel] = double(left) > kOpenToSky * double(kToSky) ? 1 : 0;
         for (std::size_t m = 0; m < hours_.size(); ++m)
             if (const DaylightYear::Sun& sun = year_.sun(hours_[m]); sun.lux > 0.0f)
                 light.sun[m][lumel] = sun.lux * rays_.sun(lumel, sun.direction,
@@ -95,8 +103,10 @@ DirectOfHours trace(const SolveScene& scene, const RaysOfHours& rays, std::size_
 {
     const std::size_t lumels = scene.lumels.lumels.size();
     const Estimates none(lumels, glm::vec3(0.0f));
-    DirectOfHours light{
-        std::vector<Estimates>(hours, none), std::vector<Estimates>(hours, none), {none, none}};
+    DirectOfHours light{std::vector<Estimates>(hours, none),
+                        std::vector<Estimates>(hours, none),
+                        {none, none},
+                        std::vector<char>(lumels, 0)};
     parallel_steps(
         lumels, kMappedPerStep, kMappedPerTask,
         [&](std::size_t from, std::size_t to) {
@@ -124,6 +134,27 @@ void reflect(const LinkRadiosity& links, std::size_t first, DirectOfHours& light
     for (std::size_t lane = 0; lane < width; ++lane)
         for (std::size_t i = 0; i < lumels; ++i)
             light.sun[first + lane][i] = reflected[i * kLampLanes + lane];
+}
+
+/// Weights of lumels and noise, by reflected and direct light of the typical hour.
+void weigh(const SolveScene& scene, std::span<const char> open, const std::array<Mean, 2>& typical,
+           LightOfHours& found)
+{
+    const std::size_t lumels = open.size();
+    std::vector<float> light;
+    for (std::size_t i = 0; i < lumels; ++i)
+        light.push_back(float(luminance(typical[0].light[i] + typical[1].light[i])));
+    found.weights = error_weights(scene, light, open);
+    std::array<SquaredError, 2> errors;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < lumels; ++i) {
+        const glm::vec3 whole = typical[0].light[i] + typical[1].light[i];
+        for (std::size_t part = 0; part < typical.size(); ++part)
+            errors[part].add(typical[part], i, double(found.weights[i]));
+        squares += double(found.weights[i]) * double(glm::dot(whole, whole));
+    }
+    if (squares > 0.0)
+        found.noise = std::sqrt((errors[0].sum() + errors[1].sum()) / squares);
 }
 
 }  // namespace
@@ -158,9 +189,10 @@ LightOfHours light_of_hours(const SolveScene& scene, const DaylightYear& year,
         reflect(links, first, light);
     }
     LightOfHours found;
-    found.noise = links.filter_outside(
+    const std::array<Mean, 2> typical = links.filter_outside(
         {std::move(light.halves[0]), std::move(light.halves[1]), std::move(sent)}, light.sky,
         light.sun);
+    weigh(scene, light.open, typical, found);
     found.light = std::move(light.sky);
     for (std::size_t m = 0; m < hours.size(); ++m)
         for (std::size_t i = 0; i < lumels; ++i)

@@ -15,7 +15,9 @@ namespace lumel {
 struct LightOfHours {
     /// [hours][N] Irradiance by the sky, and by the sun after one reflection and more [lx].
     std::vector<Estimates> light;
-    /// Estimated error by rays and filter of a typical one, relative to its RMS light.
+    /// [N] What each lumel counts in errors, see error_weights.h.
+    std::vector<float> weights;
+    /// Estimated error by rays and filter of a typical hour, relative to its light.
     double noise = 0.0;
 };
 

@@ -32,9 +32,9 @@ export class LampMap extends Lightmap {
         return this.lamps > 0;
     }
 
-    /** True if a lamp is on. */
-    get lampsShine() {
-        return this.sum.gains.slice(0, this.lamps).some(({ x, y, z }) => x + y + z > 0);
+    /** Light of the brightest lamp as it is set, relative to the bake. */
+    get lampLevel() {
+        return Math.max(0, ...this.sum.gains.slice(0, this.lamps).map(({ x, y, z }) => (x + y + z) / 3));
     }
 
     /** True if no lamp is changed; never with daylight, whose light is not that of the bake. */
