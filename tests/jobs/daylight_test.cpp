@@ -514,6 +514,7 @@ TEST(DaylightMaps, LightEachSideOfASheetByItself)
         EXPECT_NEAR(area[1], 1.0, 1e-3);
         EXPECT_NEAR(light[0], sky, 0.02 * sky) << h;
         const double below = kAlbedo * (sky + std::max(sun, 0.0));
+        EXPECT_LT(maps.errors[h], 0.1) << h;
         EXPECT_NEAR(light[1], below, (0.03 + maps.errors[h]) * below) << h;
     }
 }

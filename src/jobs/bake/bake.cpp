@@ -56,7 +56,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     if (options.probe_spacing > 0.0)
         check_probe_spacing(options.probe_spacing, setting.prepared);
     if (wanted_daylight)
-        wanted_daylight->check_memory(setting.prepared, limits.host);
+        wanted_daylight->check_memory(setting.prepared, options, limits.host);
     options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =

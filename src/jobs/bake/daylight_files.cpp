@@ -13,6 +13,7 @@
 #include "base/json/json_file.h"
 #include "jobs/bake/advice.h"
 #include "jobs/bake/outputs.h"
+#include "jobs/solve/host_memory.h"
 #include "results/daylight/weather_notes.h"
 #include "results/page/daylight_list.h"
 #include "results/record/bake_record.h"
@@ -94,12 +95,12 @@ WantedDaylight::WantedDaylight(const std::string& weather_file)
                         "has the hour " + name + " twice, but --daylight needs a calendar year");
 }
 
-void WantedDaylight::check_memory(const SolveScene& prepared, std::uint64_t limit) const
+void WantedDaylight::check_memory(const SolveScene& prepared, const BakeOptions& options,
+                                  std::uint64_t limit) const
 {
-    const std::size_t texels =
-        std::size_t(prepared.atlas.width) * std::size_t(prepared.atlas.height);
+    const HostMemory own = host_memory(prepared, options, false);
     const std::uint64_t needed =
-        daylight_map_bytes(prepared.lumels.lumels.size(), year_.sun_places().size(), texels);
+        daylight_map_bytes(prepared, year_.sun_places().size(), own.scene + own.trees + own.atlas);
     if (limit > 0 && needed > limit)
         throw Error(ErrorKind::input, "--daylight",
                     fmt::format("needs about {} for this bake, but there is {}; choose a smaller "

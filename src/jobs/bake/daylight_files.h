@@ -23,7 +23,8 @@ public:
     const Weather& weather() const { return weather_; }
     const DaylightYear& year() const { return year_; }
     /// Throws Error{input} if the maps do not fit. limit: of memory [bytes], 0: unknown.
-    void check_memory(const SolveScene& prepared, std::uint64_t limit) const;
+    void check_memory(const SolveScene& prepared, const BakeOptions& options,
+                      std::uint64_t limit) const;
 
 private:
     Weather weather_;

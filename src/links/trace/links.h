@@ -118,7 +118,7 @@ public:
     /// light of such sources in place, with the gains of `whole`, so that sums of maps stay sums.
     /// Returns `whole` as filtered: reflected light, then direct.
     std::array<Mean, 2> filter_outside(const OutsideLight& whole, std::span<Estimates> direct,
-                          std::span<Estimates> reflected);
+                                       std::span<Estimates> reflected);
     /// Links to store for a later run, after a round has ended. hash: Scene::hash.
     StoredLinks kept(const std::string& hash) const;
     /// Rays that lumels have sent, without the known ones.

@@ -36,7 +36,7 @@ std::vector<Row> light_rows(std::span<const float> root, std::span<const float> 
 }
 
 /// What is left of the hours' light, as rows R [hours][n], and of its products Rᵀ R [n][n]. In
-/// doubles: what is found of small parts is a difference of large ones.
+/// double precision: small remainders are differences of large numbers.
 class Rows {
 public:
     Rows(std::span<const float> root, std::span<const float> sources, std::uint32_t n)

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "base/core/luminance.h"
-#include "base/core/pi.h"
 #include "links/trace/links.h"
 #include "results/daylight/chosen_hours.h"
 #include "results/daylight/error_weights.h"
@@ -20,7 +19,8 @@
 namespace lumel {
 namespace {
 
-/// Width of lumels that decide on the hours, at most, and their least number.
+/// Maximum width of the lumels that decide on the hours, relative to those of the maps, and about
+/// their minimum number.
 constexpr double kCoarser = 8.0, kLeastCoarse = 4096.0;
 /// Part of the difference from a grid of the sun twice as wide that is the error of this: errors of
 /// linear interpolation are as the square of the step.
@@ -28,7 +28,7 @@ constexpr double kOfWideError = 1.0 / 3.0;
 /// Hours that tell the error of the sums: as many as links carry at once.
 constexpr std::size_t kControls = kLampLanes;
 /// Share of the work, for the progress bar only.
-constexpr double kBeforeMaps = 0.1;
+constexpr double kCoarseReady = 0.02, kBeforeMaps = 0.1;
 
 /// [hours][sources] Source strengths of each hour; grid: of the sun.
 std::vector<float> strengths_of(const DaylightYear& year, DaylightYear::Sun::Grid grid)
@@ -41,18 +41,24 @@ std::vector<float> strengths_of(const DaylightYear& year, DaylightYear::Sun::Gri
     return strengths;
 }
 
-/// Of the same scene, with lumels up to kCoarser times as wide.
-AtlasOptions coarser(AtlasOptions options, const SolveScene& scene)
+/// The same scene with lumels up to kCoarser times as wide. options: of its atlas.
+SolveScene coarser(const SolveScene& fine, AtlasOptions options, const ProgressCallback& progress)
 {
     const auto wider = float(
-        std::clamp(std::sqrt(double(scene.lumels.lumels.size()) / kLeastCoarse), 1.0, kCoarser));
-    options.texels_per_metre = scene.atlas.texels_per_metre / wider;
+        std::clamp(std::sqrt(double(fine.lumels.lumels.size()) / kLeastCoarse), 1.0, kCoarser));
+    options.texels_per_metre = fine.atlas.texels_per_metre / wider;
     options.size = 0;
-    options.max_size = AtlasOptions().max_size;
+    options.max_size = std::max(AtlasOptions().max_size, fine.atlas.width);
     options.pages = 1;
+    options.gutter = std::min(options.gutter, AtlasOptions().gutter);
+    Scene scene = fine.scene;
     for (DensityRule& rule : options.densities)
         rule.texels_per_metre /= wider;
-    return options;
+    for (Instance& instance : scene.instances)
+        instance.texels_per_metre /= wider;
+    for (Material& material : scene.materials)
+        material.texels_per_metre /= wider;
+    return SolveScene(std::move(scene), options, progress);
 }
 
 /// The more lumels, the fewer rays each needs: all of them decide.
@@ -148,10 +154,7 @@ std::vector<float> root_of(const SolveScene& scene, const DaylightYear& year,
             return both;
         },
         progress);
-    std::vector<char> open;
-    for (const float lux : of_sky)  // of a luminance of 1 cd/m²: π lx in the open
-        open.push_back(double(lux) > kOpenToSky * double(kPi) ? 1 : 0);
-    const std::vector<float> weights = error_weights(scene, light, open);
+    const std::vector<float> weights = error_weights(scene, light, sees_sky(of_sky));
     std::vector<float> rows;  // of red, green and blue at each lumel
     rows.reserve(3 * found.size());
     for (std::size_t i = 0; i < lumels; ++i)
@@ -163,10 +166,17 @@ std::vector<float> root_of(const SolveScene& scene, const DaylightYear& year,
 
 }  // namespace
 
-std::uint64_t daylight_map_bytes(std::size_t lumels, std::size_t places, std::size_t texels)
+std::uint64_t daylight_map_bytes(const SolveScene& scene, std::size_t places,
+                                 std::uint64_t scene_bytes)
 {
-    const auto coarse = std::size_t(kLeastCoarse + double(lumels) / (kCoarser * kCoarser));
-    const std::uint64_t coefficients = lumel_coefficient_bytes(coarse, places);
+    // Charts have a lumel at least, and at their rims some more.
+    constexpr std::size_t kOfChart = 2;
+    const std::size_t lumels = scene.lumels.lumels.size(),
+                      texels = std::size_t(scene.atlas.width) * std::size_t(scene.atlas.height);
+    const std::size_t coarse =
+        std::min(lumels, std::size_t(kLeastCoarse + double(lumels) / (kCoarser * kCoarser)) +
+                             kOfChart * scene.atlas.chart_count);
+    const std::uint64_t coefficients = scene_bytes + lumel_coefficient_bytes(coarse, places);
     const std::uint64_t light = kMostDaylightMaps * lumels * sizeof(glm::vec3);
     const std::uint64_t hours = light_of_hours_bytes(lumels, kMostDaylightMaps + kControls);
     const std::uint64_t finished = light + kMostDaylightMaps * texels * sizeof(glm::vec4);
@@ -177,9 +187,11 @@ DaylightMaps daylight_maps(const SolveScene& scene, const AtlasOptions& options,
                            const DaylightYear& year, std::uint32_t seed,
                            const ProgressCallback& progress)
 {
+    notify(progress, 0.0);
     const std::vector<float> strengths = strengths_of(year, &DaylightYear::Sun::near);
-    const std::vector<float> root = root_of(SolveScene(scene.scene, coarser(options, scene)), year,
-                                            strengths, seed, part_of(progress, 0.0, kBeforeMaps));
+    const std::vector<float> root =
+        root_of(coarser(scene, options, part_of(progress, 0.0, kCoarseReady)), year, strengths,
+                seed, part_of(progress, kCoarseReady, kBeforeMaps));
     const auto count = std::uint32_t(SkyPatches().count() + year.sun_places().size());
     ChosenHours chosen = choose_hours(root, strengths, count, kMapsError, kMostDaylightMaps);
     const std::vector<double> by_places =

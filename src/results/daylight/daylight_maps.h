@@ -21,16 +21,18 @@ struct DaylightMaps {
     std::vector<Estimates> light;    ///< [K][N] irradiance [lx]
     std::vector<float> weights;      ///< [hours of the year][K], of any sign
     std::vector<double> mean;        ///< [hours of the year] mean over all surfaces [lx]
-    /// [N] What each lumel counts in errors, see error_weights.h; they are relative to the hour's
-    /// light.
+    /// [N] By which lumels count in errors, see error_weights.h.
     std::vector<float> lumel_weights;
     double error = 0.0;  ///< that is due to the number of maps, as in ChosenHours
-    /// [hours of the year] Estimated error by that, by the positions of the sun and by rays.
+    /// [hours of the year] Estimated error by that, by the positions of the sun and by rays,
+    /// relative to the hour's light.
     std::vector<double> errors;
 };
 
-/// Host memory of daylight_maps() and of finished maps of its result, about [bytes].
-std::uint64_t daylight_map_bytes(std::size_t lumels, std::size_t places, std::size_t texels);
+/// Host memory of daylight_maps() and of finished maps of its result, about [bytes]. places: of the
+/// sun; scene_bytes: of the scene with its trees and charts, which is copied.
+std::uint64_t daylight_map_bytes(const SolveScene& scene, std::size_t places,
+                                 std::uint64_t scene_bytes);
 
 /// options: of the scene's atlas; a coarser one decides on the hours. Throws Error{input} without
 /// OpenBLAS.

@@ -1,5 +1,5 @@
 #pragma once
-// How much each lumel counts in the error of daylight.
+// What each lumel counts in the error of daylight.
 
 #include <span>
 #include <vector>
@@ -8,13 +8,14 @@
 
 namespace lumel {
 
-/// Lumels from which more than this part of the rays leaves to the sky are open to it.
-inline constexpr double kOpenToSky = 1.0 / 3.0;
+/// [N] 1 for lumels that see more than a third of the sky, by its light there, glass included [lx]
+/// for a luminance of 1 cd/m².
+std::vector<char> sees_sky(std::span<const float> light);
 
-/// [N] By its area, and by its light in a typical hour [lx], since an eye adapts to a room as to
-/// its garden: weight times squared error is relative to that light. Lumels open to the sky have as
-/// much weight together as all others, lest wide ground decide alone.
+/// [N] Weight of each lumel's squared error: its area, divided by the square of its usual light, so
+/// that errors in dim rooms count as those outdoors do. Lumels that see the sky have as much weight
+/// together as all others, or errors in rooms would be lost beside wide ground. light: in any unit.
 std::vector<float> error_weights(const SolveScene& scene, std::span<const float> light,
-                                 std::span<const char> open);
+                                 std::span<const char> sees_sky);
 
 }  // namespace lumel

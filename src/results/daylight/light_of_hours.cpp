@@ -32,7 +32,7 @@ constexpr double kSkyPart = 0.4, kLinkedPart = 0.6;
 struct DirectOfHours {
     std::vector<Estimates> sky, sun;  ///< [hours][N]
     std::array<Estimates, 2> halves;  ///< [N] of the sky in a typical hour, by half of the rays
-    std::vector<char> open;           ///< [N]
+    std::vector<float> of_sky;        ///< [N] of a sky of 1 cd/m²
 };
 
 /// Traces direct light of hours.
@@ -63,14 +63,12 @@ public:
 
     void find(std::size_t lumel, DirectOfHours& light) const
     {
-        std::uint32_t left = 0;
         for (std::uint32_t half = 0; half < light.halves.size(); ++half)
             rays_.visit(lumel, kToSky / 2, PathSamples::hash(seed_, half),
                         [&](const glm::vec3& direction, const glm::vec3& found) {
-                            ++left;
+                            light.of_sky[lumel] += 0.5f * luminance(found);
                             add(lumel, half, year_.patches().at(direction), found, light);
                         });
-        light.open[lumel] = double(left) > kOpenToSky * double(kToSky) ? 1 : 0;
         for (std::size_t m = 0; m < hours_.size(); ++m)
             if (const DaylightYear::Sun& sun = year_.sun(hours_[m]); sun.lux > 0.0f)
                 light.sun[m][lumel] = sun.lux * rays_.sun(lumel, sun.direction,
@@ -106,7 +104,7 @@ DirectOfHours trace(const SolveScene& scene, const RaysOfHours& rays, std::size_
     DirectOfHours light{std::vector<Estimates>(hours, none),
                         std::vector<Estimates>(hours, none),
                         {none, none},
-                        std::vector<char>(lumels, 0)};
+                        std::vector<float>(lumels, 0.0f)};
     parallel_steps(
         lumels, kMappedPerStep, kMappedPerTask,
         [&](std::size_t from, std::size_t to) {
@@ -137,14 +135,14 @@ void reflect(const LinkRadiosity& links, std::size_t first, DirectOfHours& light
 }
 
 /// Weights of lumels and noise, by reflected and direct light of the typical hour.
-void weigh(const SolveScene& scene, std::span<const char> open, const std::array<Mean, 2>& typical,
-           LightOfHours& found)
+void weigh(const SolveScene& scene, std::span<const float> of_sky,
+           const std::array<Mean, 2>& typical, LightOfHours& found)
 {
-    const std::size_t lumels = open.size();
+    const std::size_t lumels = of_sky.size();
     std::vector<float> light;
     for (std::size_t i = 0; i < lumels; ++i)
         light.push_back(float(luminance(typical[0].light[i] + typical[1].light[i])));
-    found.weights = error_weights(scene, light, open);
+    found.weights = error_weights(scene, light, sees_sky(of_sky));
     std::array<SquaredError, 2> errors;
     double squares = 0.0;
     for (std::size_t i = 0; i < lumels; ++i) {
@@ -192,7 +190,7 @@ LightOfHours light_of_hours(const SolveScene& scene, const DaylightYear& year,
     const std::array<Mean, 2> typical = links.filter_outside(
         {std::move(light.halves[0]), std::move(light.halves[1]), std::move(sent)}, light.sky,
         light.sun);
-    weigh(scene, light.open, typical, found);
+    weigh(scene, light.of_sky, typical, found);
     found.light = std::move(light.sky);
     for (std::size_t m = 0; m < hours.size(); ++m)
         for (std::size_t i = 0; i < lumels; ++i)

@@ -18,9 +18,9 @@ constexpr std::size_t kDaylitPerStep = 2048, kDaylitPerTask = 64, kLanesPerTask 
 /// Shares of the work, for the progress bar only: direct light, then links.
 constexpr double kDirectPart = 0.5, kTracedPart = 0.7;
 
-bool is_open(const SolveScene& scene, std::size_t lumel)
+bool is_buried(const SolveScene& scene, std::size_t lumel)
 {
-    return !(scene.lumels.lumels[lumel].flags & kLumelBuried);
+    return (scene.lumels.lumels[lumel].flags & kLumelBuried) != 0;
 }
 
 /// [N][sources]
@@ -49,7 +49,7 @@ std::vector<glm::vec3> direct_coefficients(const SolveScene& scene,
         lumels, kDaylitPerStep, kDaylitPerTask,
         [&](std::size_t from, std::size_t to) {
             for (std::size_t i = from; i < to; ++i)
-                if (is_open(scene, i))
+                if (!is_buried(scene, i))
                     find(i);
         },
         [&](std::size_t done) {
@@ -91,7 +91,7 @@ std::vector<glm::vec3> lumel_coefficients(const SolveScene& scene,
         const std::vector<glm::vec3> bounced = links.reflected(lanes);
         parallel_for(lumels, kLanesPerTask, [&](std::size_t from, std::size_t to) {
             for (std::size_t i = from; i < to; ++i)
-                for (std::size_t lane = 0; lane < width && is_open(scene, i); ++lane) {
+                for (std::size_t lane = 0; lane < width && !is_buried(scene, i); ++lane) {
                     glm::vec3& light = found[i * count + first + lane];
                     light = of(i, first + lane, light, bounced[i * kLampLanes + lane]);
                 }
@@ -102,9 +102,9 @@ std::vector<glm::vec3> lumel_coefficients(const SolveScene& scene,
 
 std::uint64_t lumel_coefficient_bytes(std::size_t lumels, std::size_t places)
 {
-    // Beside the coefficients, the links and the light in sub-lumels of some sources.
-    constexpr std::uint64_t kOthers = 2;
-    return kOthers * lumels * (SkyPatches().count() + places) * sizeof(glm::vec3);
+    // As much again by the caller; the links, and the light of some sources in sub-lumels.
+    constexpr std::uint64_t kCopies = 3;
+    return kCopies * lumels * (SkyPatches().count() + places) * sizeof(glm::vec3);
 }
 
 }  // namespace lumel

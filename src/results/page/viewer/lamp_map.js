@@ -32,9 +32,9 @@ export class LampMap extends Lightmap {
         return this.lamps > 0;
     }
 
-    /** Light of the brightest lamp as it is set, relative to the bake. */
+    /** Largest factor of a lamp, at most 1. */
     get lampLevel() {
-        return Math.max(0, ...this.sum.gains.slice(0, this.lamps).map(({ x, y, z }) => (x + y + z) / 3));
+        return Math.min(1, Math.max(0, ...this.sum.gains.slice(0, this.lamps).map(({ x, y, z }) => (x + y + z) / 3)));
     }
 
     /** True if no lamp is changed; never with daylight, whose light is not that of the bake. */
