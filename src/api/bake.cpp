@@ -205,7 +205,7 @@ Baked baked_scene(const gpu::Device* device, const SceneImpl& given, BakeOptions
     const auto kept =
         std::make_shared<BakedSolution>(std::move(scene), given.document, device, options, stages);
     const SolveScene& prepared = kept->setting.prepared;
-    options.solver.max_bytes = bytes_for_links(prepared, options, limits);
+    limit_links(options, prepared, limits);
     std::unique_ptr<Solution> solution =
         keeps_sources_apart(options) ? solve_sources(*device, kept->setting, options, stages)
                                      : solve_light(device, kept->setting, options, stages);

@@ -31,12 +31,13 @@ inline constexpr std::uint64_t kDefaultRays = 96;
 /// A method, and when to stop.
 struct SolverOptions {
     MethodOptions method = LinksOptions{};
-    std::uint64_t max_shots = 0;     ///< 0: no limit
-    double max_seconds = 0.0;        ///< 0: no limit. Of a bake: from its beginning
-    double target_error = 0.02;      ///< estimated relative error to stop at, 0: never
-    double target_dark_error = 0.0;  ///< estimated relative error of dark lumels, 0: never
-    Quality target_quality;          ///< to stop at
-    std::uint64_t max_bytes = 0;     ///< host memory that links may take, 0: no limit
+    std::uint64_t max_shots = 0;         ///< 0: no limit
+    double max_seconds = 0.0;            ///< 0: no limit. Of a bake: from its beginning
+    double target_error = 0.02;          ///< estimated relative error to stop at, 0: never
+    double target_dark_error = 0.0;      ///< estimated relative error of dark lumels, 0: never
+    Quality target_quality;              ///< to stop at
+    std::uint64_t max_bytes = 0;         ///< host memory that links may take, 0: no limit
+    std::uint64_t max_device_bytes = 0;  ///< GPU memory that sweeps may take, 0: no limit
 
     bool has_target() const
     {
@@ -50,7 +51,8 @@ struct SolverOptions {
     }
     SolveLimits limits() const
     {
-        return {max_shots, max_seconds, target_error, target_dark_error, target_quality, max_bytes};
+        return {max_shots,      max_seconds, target_error,    target_dark_error,
+                target_quality, max_bytes,   max_device_bytes};
     }
 };
 

@@ -57,7 +57,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
         check_probe_spacing(options.probe_spacing, setting.prepared);
     if (wanted_daylight)
         wanted_daylight->check_memory(setting.prepared, options, limits.host);
-    options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
+    limit_links(options, setting.prepared, limits);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =
         keeps_sources_apart(options) ? solve_sources(device, setting, options, stages)

@@ -25,7 +25,8 @@ Json json_of(const GraphicsMemory& bytes)
 {
     return {{"staging", bytes.staging}, {"world", bytes.world},
             {"rays", bytes.rays},       {"direct_light", bytes.direct_light},
-            {"solver", bytes.solver},   {"directional", bytes.directional}};
+            {"solver", bytes.solver},   {"directional", bytes.directional},
+            {"sweeps", bytes.sweeps}};
 }
 
 Json json_of(const HostMemory& bytes)

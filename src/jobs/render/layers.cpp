@@ -151,7 +151,7 @@ Report render_layers(Scene scene, const std::string& path, RenderOptions options
     const SolveScene& prepared = setting.prepared;
     const View view = view_for(prepared.scene, prepared.rays, options);
     check_size(device, options);
-    options.bake.solver.max_bytes = bytes_for_links(prepared, options.bake, limits);
+    limit_links(options.bake, prepared, limits);
     const std::unique_ptr<Solution> solution = solve_light(&device, setting, options.bake, stages);
     const SolverState solved = solution->solver->state();
     const std::optional<LampLights> lamps = keep_lamps_apart(*solution->solver, stages);

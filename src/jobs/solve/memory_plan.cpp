@@ -13,6 +13,7 @@
 #include "jobs/solve/sources.h"
 #include "jobs/solve/stages.h"
 #include "links/trace/link_casters.h"
+#include "links/trace/links.h"
 #include "methods/matrix/option_table.h"
 #include "methods/matrix/relight_solver.h"
 #include "methods/methods.h"
@@ -73,7 +74,7 @@ void refuse(const std::string& shortage)
 
 }  // namespace
 
-std::uint64_t GraphicsMemory::most() const
+std::uint64_t GraphicsMemory::least() const
 {
     return staging + world + rays + std::max(direct_light, solver + directional);
 }
@@ -99,7 +100,10 @@ GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& op
             keeps_sources_apart(options)
                 ? RelightSolver::device_bytes(size, std::get<MatrixOptions>(options.solver.method))
                 : solver_bytes(size, options.solver),
-        .directional = directional_bytes(size, directional_options(options, 0))};
+        .directional = directional_bytes(size, directional_options(options, 0)),
+        .sweeps = ray_bytes > 0 ? LinkRadiosity::device_sweep_bytes(prepared.lumels.lumels.size(),
+                                                                    options.solver.max_shots)
+                                : 0};
 }
 
 MemoryLimits memory_limits(std::uint64_t max_memory, const gpu::DeviceInfo& device,
@@ -129,13 +133,13 @@ std::string shortage(const GraphicsMemory& device, const HostMemory& host, int s
                      const MemoryLimits& limits)
 {
     const char* allowed = "--max-memory allows";
-    if (limits.device > 0 && device.most() > limits.device)
-        return sentence("graphics", device.most(), device.staging + device.rays, side,
+    if (limits.device > 0 && device.least() > limits.device)
+        return sentence("graphics", device.least(), device.staging + device.rays, side,
                         limits.device,
                         limits.given    ? allowed
                         : limits.shared ? "this machine has"
                                         : limits.of.name + " has");
-    const std::uint64_t software = limits.shared ? device.most() : 0;
+    const std::uint64_t software = limits.shared ? device.least() : 0;
     const std::uint64_t fixed = host.fixed + (limits.shared ? device.staging + device.rays : 0);
     const std::uint64_t needed = host.least() + software;
     if (limits.host == 0 || needed <= limits.host)
@@ -164,14 +168,23 @@ void check_memory(const SolveScene& prepared, const BakeOptions& options,
                     limits));
 }
 
-std::uint64_t bytes_for_links(const SolveScene& prepared, const BakeOptions& options,
-                              const MemoryLimits& limits)
+void limit_links(BakeOptions& options, const SolveScene& prepared, const MemoryLimits& limits)
 {
-    if (!uses_links(options) || limits.host == 0)
-        return 0;
-    const HostMemory host = host_memory(prepared, options, limits.shared);
-    const std::uint64_t others = host.without_links();
-    return std::max(host.first_links, limits.host - std::min(others, limits.host));
+    if (!uses_links(options))
+        return;
+    const GraphicsMemory graphics = graphics_memory(prepared, options, limits.of);
+    SolverOptions& solver = options.solver;
+    // A device that is the CPU has its copy of the links in the memory that they are in.
+    const bool is_copied = limits.shared && graphics.sweeps > 0;
+    if (limits.host > 0) {
+        const HostMemory host = host_memory(prepared, options, limits.shared);
+        const std::uint64_t left = limits.host - std::min(host.without_links(), limits.host);
+        solver.max_bytes = std::max(host.first_links, is_copied ? left / 2 : left);
+    }
+    if (is_copied)
+        solver.max_device_bytes = solver.max_bytes;
+    else if (limits.device > 0)
+        solver.max_device_bytes = limits.device - std::min(graphics.least(), limits.device - 1);
 }
 
 }  // namespace lumel

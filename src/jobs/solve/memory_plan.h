@@ -14,8 +14,10 @@ namespace lumel {
 /// GPU memory by use [bytes]. Direct light is freed before the solver is made.
 struct GraphicsMemory {
     std::uint64_t staging = 0, world = 0, rays = 0, direct_light = 0, solver = 0, directional = 0;
+    std::uint64_t sweeps = 0;  ///< if there is as much, else the CPU sweeps
 
-    std::uint64_t most() const;
+    std::uint64_t least() const;
+    std::uint64_t most() const { return least() + sweeps; }
 };
 /// device: without a type if there is none.
 GraphicsMemory graphics_memory(const SolveScene& prepared, const BakeOptions& options,
@@ -46,8 +48,7 @@ void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLi
 void check_memory(const SolveScene& prepared, const BakeOptions& options,
                   const MemoryLimits& limits);
 
-/// Memory left for links [bytes], for SolverOptions::max_bytes.
-std::uint64_t bytes_for_links(const SolveScene& prepared, const BakeOptions& options,
-                              const MemoryLimits& limits);
+/// Sets SolverOptions::max_bytes and max_device_bytes to the memory that is left for links.
+void limit_links(BakeOptions& options, const SolveScene& prepared, const MemoryLimits& limits);
 
 }  // namespace lumel

@@ -19,6 +19,7 @@ struct LinkWork {
     struct Casters {
         std::unique_ptr<RayCaster> rays;
         std::unique_ptr<BundleCaster> bundles = nullptr;  ///< of shared directions; null: `rays`
+        const gpu::Device* device = nullptr;              ///< casts `rays`; null: the CPU does
     };
     /// Returns the lumels [N] in the order in which they trace rays.
     using Order = std::vector<std::uint32_t> (*)(const WorldLumels& world);

@@ -2,7 +2,6 @@
 // The table of links: what each ray of the lumels hit. It depends on geometry alone, except for the
 // light of rays that are reflected close to their lumel.
 
-#include <bit>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -11,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "atlas/cells/cells.h"
+#include "links/kept/near_weight.shared.h"
 #include "links/kept/ray_guide.h"
 
 namespace lumel {
@@ -78,17 +78,7 @@ struct NearLink {
     LinkEnd end;
     std::uint32_t packed_weight;  ///< remaining weight, RGB9E5
 
-    /// As glm::unpackF3x9_E1x5(), without a call of pow().
-    glm::vec3 weight() const
-    {
-        constexpr std::uint32_t kMantissa = 9, kMask = (1u << kMantissa) - 1u;
-        constexpr std::uint32_t kBias = 15, kBiasOfFloat = 127, kMantissaOfFloat = 23;
-        const std::uint32_t exponent = packed_weight >> 3 * kMantissa;
-        const auto scale =
-            std::bit_cast<float>((exponent + kBiasOfFloat - kBias - kMantissa) << kMantissaOfFloat);
-        return scale * glm::vec3(packed_weight & kMask, packed_weight >> kMantissa & kMask,
-                                 packed_weight >> 2 * kMantissa & kMask);
-    }
+    glm::vec3 weight() const { return near_weight(packed_weight); }
 };
 
 /// The part of a near link that sweeps do not read.

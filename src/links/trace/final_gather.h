@@ -5,7 +5,7 @@
 
 #include "links/direct/direct_rays.h"
 #include "links/rays/tracer.h"
-#include "links/trace/source_term.h"
+#include "links/sweeps/source_term.h"
 
 namespace lumel {
 

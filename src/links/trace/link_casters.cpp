@@ -12,15 +12,18 @@ Rays chosen(const gpu::DeviceInfo& device, Rays wanted)
     return wanted == Rays::automatic ? automatic_rays(device) : wanted;
 }
 
-std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene& rays, Rays wanted)
+LinkWork::Casters caster_for(const gpu::Device& device, const RayScene& rays, Rays wanted)
 {
     switch (chosen(device.info(), wanted)) {
     case Rays::query:
-        return cast_by_queries(device, rays);
+        return {.rays = cast_by_queries(device, rays), .device = &device};
     case Rays::tree:
-        return cast_by_tree(device, rays);
+        return {.rays = cast_by_tree(device, rays), .device = &device};
+    case Rays::raster:
+        return {.rays = cast_on_host(rays),
+                .bundles = std::make_unique<BundleCaster>(device, rays)};
     default:
-        return cast_on_host(rays);
+        return {.rays = cast_on_host(rays)};
     }
 }
 
@@ -41,14 +44,12 @@ LinkWork::Casters casters_for(const gpu::Device* device, const RayScene& rays, R
     }
     if (wanted == Rays::automatic)
         try {
-            return {.rays = caster_for(*device, rays, wanted)};
+            return caster_for(*device, rays, wanted);
         } catch (const Error& error) {
             log_info(std::string("tracing rays on the CPU: ") + error.what());
             return {.rays = cast_on_host(rays)};
         }
-    return {.rays = caster_for(*device, rays, wanted),
-            .bundles =
-                wanted == Rays::raster ? std::make_unique<BundleCaster>(*device, rays) : nullptr};
+    return caster_for(*device, rays, wanted);
 }
 
 std::uint64_t caster_bytes(const gpu::DeviceInfo& device, const RayScene& rays, Rays wanted)

@@ -2,7 +2,7 @@
 // sources, plus light along cosine-distributed rays. Each of these is traced once. The sub-lumel
 // and the cell that it hits are stored, a link of four bytes, and X = C + K ρ X, with C the light
 // of sources at the ends of links, is solved over the links, sweep by sweep, for all bounces at
-// once (links/trace/sweeps.cpp). The cost grows linearly with the number of lumels.
+// once (links/sweeps/sweeps.cpp). The cost grows linearly with the number of lumels.
 //
 // Three solutions have their own links, and direct light has two halves. The result is the mean of
 // the solutions, filtered over charts. The noise of different solutions is independent: the
@@ -20,6 +20,7 @@
 #include <cmath>
 
 #include "atlas/cells/order.h"
+#include "base/core/log.h"
 #include "base/core/luminance.h"
 #include "base/core/state_bytes.h"
 #include "base/core/usage.h"
@@ -82,13 +83,15 @@ LinkRadiosity::LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters,
       target_visible_noise_(limits.target_quality.visible_noise),
       most_shots_(limits.max_shots),
       most_bytes_(limits.max_bytes),
+      most_device_bytes_(limits.max_device_bytes),
       parts_wanted_(parts),
       work_(scene, std::move(casters), options.rule, order_in_space,
             options.outside_light ? kNoSources : LightSelection{}),
       lamps_(options.outside_light ? std::optional(LampTable{})
              : options.per_lamp ? std::optional(find_lamps(scene.scene, scene.lumels, work_.sources,
                                                            options.groups))
-                                : std::nullopt)
+                                : std::nullopt),
+      sweeping_(work_.casters.device)
 {
 }
 
@@ -214,6 +217,7 @@ void LinkRadiosity::cut()
                    PathSamples::hash(options_.seed, kPartStream));
     numbers_.emplace(work_.scene.scene.instances.size(), parts_->count());
     solver_.emplace(work_, *parts_, *numbers_);
+    device_sweeps_.reset();
     find_light();
 }
 
@@ -225,6 +229,7 @@ void LinkRadiosity::find_light()
                     options_.outside_light);
     for (std::optional<LinkTable>& links : links_)
         links.emplace(parts_->count());
+    device_links_ = {};
     sealed_.emplace(work_, *parts_, *numbers_);
 }
 
@@ -267,6 +272,47 @@ void LinkRadiosity::begin_links()
         links->rounds.emplace_back(tracer_->blocks());
 }
 
+/// Sweeps on the device, if it has enough memory. Throws Error{device} if not.
+double LinkRadiosity::sweep_on(const gpu::Device& device, std::size_t k, double least_factor)
+{
+    std::uint64_t left = most_device_bytes_;
+    const auto take = [&](std::uint64_t bytes) {
+        if (left > 0 && bytes >= left)
+            throw Error(ErrorKind::device, device.info().name,
+                        "has too little memory for sweeps beside all else");
+        left -= left > 0 ? bytes : 0;
+    };
+    take(DeviceSweeps::bytes(parts_->count()));
+    for (const DeviceLinks& links : device_links_)
+        take(links.bytes());
+    if (!device_sweeps_)
+        device_sweeps_.emplace(device, solver_->albedo());
+    device_links_[k].update(device, {work_, *parts_, *numbers_}, *links_[k], left);
+    return solver_
+        ->solve_on(*device_sweeps_, device_links_[k], *links_[k], sources_[k], sweep_residual(),
+                   received_[k], least_factor)
+        .factor;
+}
+
+/// Solves over the links of a solution, on the device that casts rays or on the CPU.
+/// Returns the factor between changes.
+double LinkRadiosity::sweep(std::size_t k, double least_factor)
+{
+    if (sweeping_)
+        try {
+            return sweep_on(*sweeping_, k, least_factor);
+        } catch (const Error& error) {
+            if (error.kind() != ErrorKind::device)
+                throw;
+            log_info(std::string("sweeping on the CPU: ") + error.what());
+            sweeping_ = nullptr;
+            device_sweeps_.reset();
+            device_links_ = {};
+        }
+    return solver_->solve(*links_[k], sources_[k], sweep_residual(), received_[k], least_factor)
+        .factor;
+}
+
 /// Solves for all bounces over the links of each solution.
 void LinkRadiosity::solve()
 {
@@ -277,7 +323,7 @@ void LinkRadiosity::solve()
         // From the light of the first: only a residual's share of that is left.
         if (k > 0 && received_[k].empty())
             received_[k] = received_[0];
-        factor = solver_->solve(*links_[k], sources_[k], sweep_residual(), received_[k], factor);
+        factor = sweep(k, factor);
         sources_[k].light = std::vector<glm::vec4>();  // frees it
         if (lamps_)
             swept_sky_[k] = links_[k]->sky;

@@ -13,9 +13,10 @@
 #include "links/kept/link_changes.h"
 #include "links/kept/ray_guide.h"
 #include "links/rays/tracer.h"
+#include "links/sweeps/device_sweeps.h"
+#include "links/sweeps/sweeps.h"
 #include "links/trace/links_options.h"
 #include "links/trace/sealed_space.h"
-#include "links/trace/sweeps.h"
 #include "rays/cast/ray_caster.h"
 #include "scene/values/parts.h"
 #include "solve/solver/inputs.h"
@@ -42,8 +43,12 @@ public:
                   Parts parts = Parts::all);
     ~LinkRadiosity() override;
 
-    /// GPU memory [bytes]: none.
+    /// GPU memory that it cannot do without [bytes]: none.
     static std::uint64_t device_bytes(const SolveSize&, const LinksOptions&) { return 0; }
+
+    /// GPU memory of sweeps on the device, for the ray count of most scenes, at most `shots` per
+    /// lumel (0: no limit) [bytes].
+    static std::uint64_t device_sweep_bytes(std::size_t lumels, std::uint64_t shots);
 
     /// Host memory of the first round's links [bytes]. even_rays: as in LinksOptions.
     /// lamps: kept apart.
@@ -195,6 +200,8 @@ private:
     std::vector<char> lit_parts() const;
     void leave_sealed_space();
     double sweep_residual() const;
+    double sweep_on(const gpu::Device& device, std::size_t solution, double least_factor);
+    double sweep(std::size_t solution, double least_factor);
     void solve();
     void end_round();
     double mean_albedo() const;
@@ -230,8 +237,9 @@ private:
 
     const LinksOptions options_;
     const double target_error_, target_dark_error_, target_eye_error_, target_visible_noise_;
-    const std::uint64_t most_shots_;  ///< 0: no limit
-    const std::uint64_t most_bytes_;  ///< memory limit of links, 0: no limit
+    const std::uint64_t most_shots_;         ///< 0: no limit
+    const std::uint64_t most_bytes_;         ///< memory limit of links, 0: no limit
+    const std::uint64_t most_device_bytes_;  ///< GPU memory limit of sweeps, 0: no limit
     const Parts parts_wanted_;
     LinkWork work_;
     const StoredLinks* stored_ = nullptr;
@@ -248,7 +256,10 @@ private:
     std::optional<ChartFilter> filter_;  ///< for the present links; empty: not made
     // Solutions share no random numbers except those of direct light.
     std::array<std::optional<LinkTable>, kSolutions> links_;
-    std::array<SourceTerm, kSolutions> sources_;  ///< of the last sweeps, without light
+    const gpu::Device* sweeping_;  ///< null: the CPU sweeps
+    std::optional<DeviceSweeps> device_sweeps_;
+    std::array<DeviceLinks, kSolutions> device_links_;  ///< of solved rounds
+    std::array<SourceTerm, kSolutions> sources_;        ///< of the last sweeps, without light
     std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] without direct light
     /// [P] LinkTable::sky at the last sweeps; empty unless lamps are kept apart.
     std::array<std::vector<glm::vec3>, kSolutions> swept_sky_;

@@ -82,6 +82,16 @@ std::uint64_t LinkRadiosity::sweep_bytes(std::size_t lumels)
     return std::max(sweep, mean);
 }
 
+std::uint64_t LinkRadiosity::device_sweep_bytes(std::size_t lumels, std::uint64_t shots)
+{
+    constexpr double kFirst = kSolutions * kFirstRays;
+    const double rays = shots > 0 ? std::min(double(shots), kLikelyRays) : kLikelyRays;
+    const double first = std::min(rays, kFirst);
+    return DeviceSweeps::bytes(lumels) +
+           std::uint64_t(double(lumels) *
+                         (first * kLinkBytes + (rays - first) * (kLinkBytes + sizeof(float))));
+}
+
 std::uint64_t LinkRadiosity::lamp_bytes(std::size_t lumels, std::size_t lamps)
 {
     if (lamps == 0)

@@ -21,7 +21,8 @@ struct SolveLimits {
     double target_error = 0.0;       ///< estimated relative error; 0: not used
     double target_dark_error = 0.0;  ///< estimated relative error of dark lumels; 0: not used
     Quality target_quality;
-    std::uint64_t max_bytes = 0;  ///< host memory limit of links, 0: no limit
+    std::uint64_t max_bytes = 0;         ///< host memory limit of links, 0: no limit
+    std::uint64_t max_device_bytes = 0;  ///< GPU memory limit of sweeps, 0: no limit
 };
 
 }  // namespace lumel

@@ -57,8 +57,7 @@ SolvedLight solve_standing(const gpu::Device& device, StandingScene standing, co
             return std::move(standing.atlas);
         },
         &device, options, stages);
-    options.solver.max_bytes =
-        bytes_for_links(setting.prepared, options, memory_limits(options, &device));
+    limit_links(options, setting.prepared, memory_limits(options, &device));
     const std::unique_ptr<Solution> solution = solve_light(&device, setting, options, stages);
     stages.end();
     device.check_validation();

@@ -9,7 +9,7 @@
 #include "atlas/cells/order.h"
 #include "links/kept/ray_guide.h"
 #include "links/rays/tracer.h"
-#include "links/trace/source_term.h"
+#include "links/sweeps/source_term.h"
 #include "rays/cast/ray_caster.h"
 
 namespace lumel {

@@ -6,7 +6,9 @@
 
 #include "../../jobs/closed_room.h"
 #include "../../support/closed_forms.h"
+#include "base/core/log.h"
 #include "compared_links.h"
+#include "links/sweeps/device_sweeps.h"
 
 namespace lumel {
 namespace {
@@ -60,6 +62,26 @@ TEST_P(LinksByDevice, GiveTheSameBytesAgain)
     const SolverOptions options = links(0.05);
     EXPECT_EQ(support::solve_scene(world, options).irradiance,
               support::solve_scene(world, options).irradiance);
+}
+
+TEST_P(LinksByDevice, AreSweptOnTheCpuWhereTheDeviceLacksMemory)
+{
+    const SolveScene world(support::scene_path("cornell-box"), {.size = 32});
+    const auto light = [&](std::uint64_t most) {
+        SolverOptions options = links(0.05);
+        options.max_device_bytes = most;
+        return support::solve_scene(world, options).irradiance;
+    };
+    const LogCapture log;
+    const auto on_device = light(0);
+    EXPECT_TRUE(log.messages().empty());
+    // Enough for nothing, for a part of the first round's links, and for all of these.
+    const auto least = double(DeviceSweeps::bytes(world.lumels.lumels.size()));
+    for (const double most : {1.0, 1.5 * least, 2.5 * least})
+        EXPECT_EQ(light(std::uint64_t(most)), on_device) << most;
+    EXPECT_GE(log.messages().size(), 2u);
+    for (const std::string& message : log.messages())
+        EXPECT_NE(message.find("sweeping on the CPU"), std::string::npos) << message;
 }
 
 }  // namespace

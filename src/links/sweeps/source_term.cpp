@@ -1,9 +1,10 @@
-#include "links/trace/source_term.h"
+#include "links/sweeps/source_term.h"
 
 #include <algorithm>
 #include <array>
 
 #include "base/core/parallel.h"
+#include "base/core/precise.shared.h"
 
 namespace lumel {
 namespace {
@@ -260,7 +261,8 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
     for (std::size_t p = 0; p < parts.count(); ++p) {
         const LaneLight<Lanes> sky = reflected.of_sky(links.sky[p]);
         for (std::size_t lane = 0; lane < Lanes; ++lane)
-            sum.light[p * Lanes + lane] += sky[lane];
+            sum.light[p * Lanes + lane] =
+                glm::vec4(without_tiny(glm::vec3(sum.light[p * Lanes + lane] + sky[lane])), 0.0f);
     }
     sum.is_closed = std::none_of(loses.begin(), loses.end(), [](char one) { return one != 0; });
     return sum;

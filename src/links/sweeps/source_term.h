@@ -30,6 +30,13 @@ struct SourceTerm {
     /// count, their number.
     std::vector<float> rays;
     bool is_closed = false;  ///< all rays hit reflecting surfaces
+
+    /// 1 / rays. 0 without any: links to such a sub-lumel do not count, and light of its lumel's
+    /// other parts would leak.
+    float share_of_ray(std::size_t part) const
+    {
+        return rays[part] > 0.0f ? 1.0f / rays[part] : 0.0f;
+    }
 };
 
 /// Direct light that each number of a link's end reflects [lm/m²].

@@ -2,12 +2,15 @@
 // Solves for all bounces over stored links.
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "atlas/near/world_lumels.h"
-#include "links/trace/source_term.h"
+#include "links/sweeps/device_sweeps.h"
+#include "links/sweeps/level_groups.h"
+#include "links/sweeps/source_term.h"
 
 namespace lumel {
 
@@ -23,14 +26,26 @@ public:
     /// All arguments must outlive this.
     LinkSolver(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers);
 
+    struct Swept {
+        double factor = 0.0;  ///< between changes of the last sweeps, 0 in the dark
+        int sweeps = 0;
+
+        bool operator==(const Swept&) const = default;
+    };
+
     /// X [P] [lx]; starts from `received` unless it is empty. residual: RMS of the light left out,
     /// relative to each sub-lumel's own. least_factor: minimum assumed factor between changes of
-    /// successive sweeps. Returns that of the last sweeps, 0 in the dark, for other links of the
-    /// same scene: where `received` is nearly solved, noise hides how slowly the level of the light
-    /// converges. Throws
-    /// Error{input} if the light of a closed room is never absorbed.
-    double solve(const LinkTable& links, const SourceTerm& source, double residual,
-                 std::vector<glm::vec3>& received, double least_factor = 0.0) const;
+    /// successive sweeps: that of other links of the same scene, since noise hides how slowly the
+    /// level of the light converges where `received` is nearly solved. Throws Error{input} if the
+    /// light of a closed room is never absorbed.
+    Swept solve(const LinkTable& links, const SourceTerm& source, double residual,
+                std::vector<glm::vec3>& received, double least_factor = 0.0) const;
+
+    /// The same on a GPU, with the same results bit for bit. links: a copy on that device. Throws
+    /// Error{device} if the device lacks memory; `received` is then unchanged.
+    Swept solve_on(DeviceSweeps& device, const DeviceLinks& copy, const LinkTable& links,
+                   const SourceTerm& source, double residual, std::vector<glm::vec3>& received,
+                   double least_factor = 0.0) const;
 
     /// X [P][kLampLanes] of a few lamps at once, from darkness; source: of these.
     void solve_lamps(const LinkTable& links, const SourceTerm& source, double residual,
@@ -39,10 +54,12 @@ public:
     void gather_lamps(const LinkTable& links, const SourceTerm& source,
                       std::vector<glm::vec3>& received) const;
 
+    /// [P] ρ, in the order of the sweeps
+    const std::vector<glm::vec3>& albedo() const { return albedo_; }
+
 private:
-    class Groups;
     template <std::size_t Lanes>
-    class Sweeps;
+    class HostSweeps;
 
     /// Links with the light at their ends.
     struct System {
@@ -50,12 +67,14 @@ private:
         const SourceTerm& source;
     };
 
+    template <std::size_t Lanes, class Sweeps>
+    Swept run(Sweeps& sweeps, const System& system, double residual, double least_factor) const;
+
     const LinkWork& work_;
     const SubLumels& parts_;
     const LinkNumbers& numbers_;
-    std::vector<glm::vec3> albedo_;     ///< [P] ρ, in the order of the sweeps
-    std::vector<std::uint32_t> group_;  ///< [P]
-    std::uint32_t group_count_ = 0;
+    const LevelGroups groups_;
+    std::vector<glm::vec3> albedo_;  ///< [P]
 };
 
 }  // namespace lumel

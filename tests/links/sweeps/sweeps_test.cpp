@@ -6,10 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "../../support/source_folder.h"
-#include "atlas/cells/order.h"
-#include "links/rays/tracer.h"
-#include "links/trace/sweeps.h"
-#include "rays/cast/ray_caster.h"
+#include "traced_scene.h"
 
 namespace lumel {
 namespace {
@@ -17,49 +14,20 @@ namespace {
 using Light = std::vector<glm::dvec3>;
 
 /// A furnished room, in which sub-lumels of few rays are lit by some rounds alone.
-struct TracedRoom {
-    TracedRoom()
-        : scene(support::source_path("scenes/room.gltf"), {.size = 128}),
-          work(scene, {cast_on_host(scene.rays)}, SampleRule::area, order_in_space),
-          parts(work.world, work.cells, scene.rays, scene.lumels, work.order, kPartStream),
-          direct(work, kDirectStream),
-          numbers(scene.scene.instances.size(), parts.count()),
-          tracer(work, parts, numbers, direct, 1),
-          solver(work, parts, numbers),
-          links(parts.count())
+struct TracedRoom : support::TracedScene {
+    TracedRoom() : TracedScene(support::source_path("scenes/room.gltf"), AtlasOptions{.size = 128})
     {
-        while (direct.step()) {
-        }
     }
 
-    /// Adds a round of links with other random numbers, then finds all bounces.
+    /// Adds a round of links, then finds all bounces.
     void add_round(std::uint16_t rays, const RayGuide* guide = nullptr)
     {
         trace(rays, guide);
-        factor = solver.solve(links, source, 1e-3, received, factor);
+        factor = solver.solve(links, source, 1e-3, received, factor).factor;
     }
 
-    void trace(std::uint16_t rays, const RayGuide* guide)
-    {
-        links.rounds.emplace_back(tracer.blocks());
-        const std::vector<std::uint16_t> each(work.order.size(), rays);
-        LinkTracer::Sending sending{each, kLinkStream + ++streams, nullptr, guide};
-        tracer.trace(0, tracer.blocks(), sending, links);
-        source = find_source_term(work, parts, numbers, {work, parts, numbers, direct}, links);
-    }
-
-    SolveScene scene;
-    LinkWork work;
-    SubLumels parts;
-    DirectEstimator direct;
-    LinkNumbers numbers;
-    LinkTracer tracer;
-    LinkSolver solver;
-    LinkTable links;
-    SourceTerm source;
     std::vector<glm::vec3> received;  ///< [P] [lx]
     double factor = 0.0;              ///< between changes of sweeps
-    std::uint32_t streams = 0;        ///< of random numbers, so far
 };
 
 /// A link from a sub-lumel to another.
@@ -169,9 +137,7 @@ TEST(LinkSolver, SolvesRoundsOfWeightedLinks)
 {
     constexpr double kSolved = 5e-3;
     TracedRoom room;
-    RayGuide guide{std::vector<std::uint32_t>(room.work.order.size(), 0), {RayGuide::uniform()}};
-    for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
-        guide.tables[0].probabilities[b] = std::uint16_t(b % 2 == 0 ? 128 : 384);
+    const RayGuide guide = room.striped_guide();
     room.add_round(16);
     room.add_round(16, &guide);
     EXPECT_LE(distance_from_limit(room), kSolved);
