@@ -174,6 +174,7 @@ void time_casters(const Settings& settings)
         time_caster(*cast_by_queries(device, world.rays), rays, by_host);
     time_caster(*cast_by_tree(device, world.rays), rays, by_host);
     time_shader(device, world, rays);
+    time_sweeps(device, world);
 
     fmt::print("\n{:<28} {:>10} {:>10} {:>10} {:>10}\n",
                fmt::format("bakes with {} rays [s]", kBakedRays), "direct", "links", "sweeps",

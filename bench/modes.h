@@ -2,6 +2,7 @@
 // What the benchmark can do. All throw Error and print to stdout.
 
 #include "bench/settings.h"
+#include "gpu/device.h"
 
 namespace lumel::bench {
 
@@ -24,8 +25,12 @@ void time_following(const Settings& settings);
 /// Processor time that rays and close pairs take to follow a thing that moves.
 void time_moves(const Settings& settings);
 
-/// Rays per second of the host and of the device, by each way to cast them, and bakes with them.
+/// Rays per second of the host and of the device, by each way to cast them, sweeps over links by
+/// either, and bakes.
 void time_casters(const Settings& settings);
+
+/// Time of sweeps over links, by the host and by the device.
+void time_sweeps(const gpu::Device& device, const SolveScene& world);
 
 /// Seams of the map before and after they are matched, as numbers and as a picture.
 void show_seams(const Settings& settings);
