@@ -111,6 +111,9 @@ void measure(const gpu::Device& device, const std::string& scene, const Stage& s
     const BeforeAndAfter fine = from_scratch(device, finer);
     add_row(report, scene, "cross, against progressive with both", by_cross(device, stage), fine);
     add_row(report, scene, "progressive, against progressive with both", scratch, fine);
+    finer.options.cross.lamp_points = std::numeric_limits<std::uint32_t>::max();
+    add_row(report, scene, "cross with both and all lamp points, against progressive with both",
+            by_cross(device, finer), fine);
 }
 
 }  // namespace
