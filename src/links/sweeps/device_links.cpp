@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <utility>
 
 #include "base/core/bytes.h"
 #include "base/core/error.h"
@@ -36,7 +37,6 @@ public:
     {
         const std::size_t begin = index * kLinkBlock,
                           end = std::min(begin + kLinkBlock, work_.order.size());
-        first_part_ = parts_.first(work_.order[begin]);
         has_weights_ = !block.probabilities.empty();
         rows_.clear();
         ends_.clear();
@@ -48,12 +48,15 @@ public:
             const LinkRow row = rows.next(parts_.is_cut(i));
             for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p)
                 if (row.from)
-                    add(row, [&](std::size_t k) {
+                    add(p, row, [&](std::size_t k) {
                         return parts_.first(i) + row.leaves(parts_, i, k) == p;
                     });
                 else
-                    add(row, [](std::size_t) { return true; });
+                    add(p, row, [](std::size_t) { return true; });
         }
+        // Rows with near links first, then by the number of links: slices are short.
+        std::ranges::stable_sort(
+            rows_, {}, [](const Row& row) { return std::pair(row.near == 0, row.count); });
         PackedBlock packed;
         for (std::uint32_t first = 0; first < rows_.size(); first += kSliceRows)
             add_slice(first, packed);
@@ -64,13 +67,13 @@ private:
     /// Links of a sub-lumel: their range in `ends_` and `weights_`. The last have the range of near
     /// links in `colors_`.
     struct Row {
-        std::uint32_t first, count, first_near, near;
+        std::uint32_t part, first, count, first_near, near;
     };
 
     /// Adds a row of those links to sub-lumels that leaves(k) is true for, in the order in which
     /// the CPU adds their light.
     template <class Leaves>
-    void add(const LinkRow& row, const Leaves& leaves)
+    void add(std::uint32_t part, const LinkRow& row, const Leaves& leaves)
     {
         const auto first = std::uint32_t(ends_.size()), first_near = std::uint32_t(colors_.size());
         // One too many, so that all are written, and those to keep stay.
@@ -95,7 +98,7 @@ private:
         ends_.resize(count);
         if (has_weights_)
             weights_.resize(count);
-        rows_.push_back({first, std::uint32_t(count) - first, first_near,
+        rows_.push_back({part, first, std::uint32_t(count) - first, first_near,
                          std::uint32_t(colors_.size()) - first_near});
     }
 
@@ -111,11 +114,13 @@ private:
         }
         const auto words_before = std::uint32_t(packed.words.size());
         packed.slices.push_back(
-            {.first_part = first_part_ + first,
-             .rows = std::uint32_t(rows.size()),
+            {.rows = std::uint32_t(rows.size()),
              .first = words_before,
              .columns = columns,
              .kinds = (has_weights_ ? kWeights : 0u) | (has_colors ? kColors : 0u)});
+        packed.words.resize(words_before + kSliceRows);
+        for (std::size_t r = 0; r < rows.size(); ++r)
+            packed.words[words_before + r] = rows[r].part;
         // Appends a word of each link, column by column.
         const auto append = [&](std::uint32_t of_others, const auto& word_of) {
             const std::size_t begin = packed.words.size();
@@ -141,7 +146,6 @@ private:
     const SubLumels& parts_;
     const LinkNumbers& numbers_;
     // Of the block:
-    std::uint32_t first_part_ = 0;
     bool has_weights_ = false;
     std::vector<Row> rows_;  ///< [sub-lumels]
     std::vector<std::uint32_t> ends_;

@@ -19,15 +19,15 @@ void main()
     const LinkSlice slice = slices[at / kSliceRows];
     if (row >= slice.rows)
         return;
-    const uint part = slice.first_part + row, size = slice.columns * kSliceRows;
-    const uint last = slice.first + size;
+    const uint part = words[slice.first + row], size = slice.columns * kSliceRows;
+    const uint first = slice.first + kSliceRows + row, last = slice.first + kSliceRows + size;
     const uint weights = size, colors = (slice.kinds & kWeights) != 0u ? 2u * size : size;
     precise vec4 sum = gathered[part];
     if (slice.kinds == 0u) {
-        for (uint link = slice.first + row; link < last; link += kSliceRows)
+        for (uint link = first; link < last; link += kSliceRows)
             sum += sent[words[link]];
     } else {
-        for (uint link = slice.first + row; link < last; link += kSliceRows) {
+        for (uint link = first; link < last; link += kSliceRows) {
             precise vec4 light = sent[words[link]];
             if ((slice.kinds & kWeights) != 0u)
                 light *= uintBitsToFloat(words[link + weights]);

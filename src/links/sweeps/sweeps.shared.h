@@ -17,10 +17,10 @@ LUMEL_CONST uint kSliceRows = 32u;
 LUMEL_CONST uint kWeights = 1u;  ///< floats
 LUMEL_CONST uint kColors = 2u;   ///< weights of near links, RGB9E5
 
-/// Links of consecutive sub-lumels, as words of an array. Row r has its k-th end at `first` +
-/// kSliceRows × k + r. Shorter rows end with links to a dark sub-lumel.
+/// Links of sub-lumels that have about as many, as words of an array: kSliceRows numbers of
+/// sub-lumels, then columns. Row r has its k-th end in the k-th column's r-th word. Shorter rows
+/// end with links to a dark sub-lumel.
 struct LinkSlice {
-    uint first_part;
     uint rows;     ///< at most kSliceRows
     uint first;    ///< word
     uint columns;  ///< links of the longest row
