@@ -103,7 +103,9 @@ void time_sweeps(const gpu::Device& device, const SolveScene& world)
     print("device, kernels alone", kernels, found.sweeps);
     fmt::print("{:<28} {:>10} {:>10.2f}  {:.1f} MB\n", "copying links to it", "", copying,
                1e-6 * double(copy.bytes()));
-    fmt::print("{}\n", received == by_device ? "the same light" : "NOT the same light");
+    if (received != by_device)
+        throw Error(ErrorKind::device, device.info().name, "gives another light than the CPU");
+    fmt::print("the same light\n");
 }
 
 }  // namespace lumel::bench

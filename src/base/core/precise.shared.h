@@ -9,6 +9,9 @@
 //   multiply-add rounds once, not twice;
 // - replaces tiny values by 0: devices may flush denormal results;
 // - does not divide: Vulkan allows divisions an error of 2.5 ulp.
+//
+// Vulkan leaves the rounding of additions and multiplications to the device; this needs the
+// nearest.
 
 // clang-format off
 #ifdef __cplusplus

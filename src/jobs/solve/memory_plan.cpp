@@ -174,16 +174,21 @@ void limit_links(BakeOptions& options, const SolveScene& prepared, const MemoryL
         return;
     const GraphicsMemory graphics = graphics_memory(prepared, options, limits.of);
     SolverOptions& solver = options.solver;
-    // A device that is the CPU has its copy of the links in the memory that they are in.
-    const bool is_copied = limits.shared && graphics.sweeps > 0;
+    const bool in_host = graphics.sweeps > 0 && (limits.shared || limits.of.type == "integrated");
+    solver.max_device_bytes = 0;
     if (limits.host > 0) {
         const HostMemory host = host_memory(prepared, options, limits.shared);
-        const std::uint64_t left = limits.host - std::min(host.without_links(), limits.host);
-        solver.max_bytes = std::max(host.first_links, is_copied ? left / 2 : left);
+        std::uint64_t left = limits.host - std::min(host.without_links(), limits.host);
+        // A device in the host's memory gets what most scenes need, if the links of these fit
+        // beside it; else the CPU sweeps.
+        if (in_host) {
+            const bool fits = left >= host.links + graphics.sweeps;
+            solver.max_device_bytes = fits ? graphics.sweeps : 1;
+            left -= fits ? graphics.sweeps : 0;
+        }
+        solver.max_bytes = std::max(host.first_links, left);
     }
-    if (is_copied)
-        solver.max_device_bytes = solver.max_bytes;
-    else if (limits.device > 0)
+    if (solver.max_device_bytes == 0 && limits.device > 0)
         solver.max_device_bytes = limits.device - std::min(graphics.least(), limits.device - 1);
 }
 

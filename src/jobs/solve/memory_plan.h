@@ -14,7 +14,7 @@ namespace lumel {
 /// GPU memory by use [bytes]. Direct light is freed before the solver is made.
 struct GraphicsMemory {
     std::uint64_t staging = 0, world = 0, rays = 0, direct_light = 0, solver = 0, directional = 0;
-    std::uint64_t sweeps = 0;  ///< if there is as much, else the CPU sweeps
+    std::uint64_t sweeps = 0;  ///< optional: without it, the CPU sweeps
 
     std::uint64_t least() const;
     std::uint64_t most() const { return least() + sweeps; }

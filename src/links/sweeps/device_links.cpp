@@ -15,7 +15,7 @@ namespace {
 /// Maximum memory of a slab's words [bytes].
 constexpr std::uint64_t kSlabBytes = std::uint64_t(64) << 20;
 /// Blocks that are packed at a time, and per task.
-constexpr std::size_t kBlocksAtATime = 1024, kPackedPerTask = 8;
+constexpr std::size_t kBlocksAtATime = 64, kPackedPerTask = 8;
 
 /// Slices of a block. Their `first` counts from the first word here.
 struct PackedBlock {

@@ -48,8 +48,11 @@ DeviceSweeps::DeviceSweeps(const gpu::Device& device, const std::vector<glm::vec
 
 std::uint64_t DeviceSweeps::bytes(std::size_t parts)
 {
-    constexpr std::uint64_t kOfPart = 2 * sizeof(glm::vec3) + 4 * sizeof(glm::vec4) + sizeof(float);
-    return parts * kOfPart + groups_of(parts) * sizeof(SweepSums);
+    constexpr std::uint64_t kOfLevels = 2 * sizeof(std::uint32_t) + sizeof(float);
+    constexpr std::uint64_t kOfPart =
+        2 * sizeof(glm::vec3) + 4 * sizeof(glm::vec4) + sizeof(float) + kOfLevels;
+    return parts * kOfPart +
+           groups_of(parts) * (sizeof(SweepSums) + sizeof(GroupSpan) + sizeof(GroupSums));
 }
 
 void DeviceSweeps::begin(const DeviceLinks& links, const SourceTerm& source,

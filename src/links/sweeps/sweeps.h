@@ -2,7 +2,6 @@
 // Solves for all bounces over stored links.
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include <glm/glm.hpp>

@@ -43,7 +43,7 @@ public:
                   Parts parts = Parts::all);
     ~LinkRadiosity() override;
 
-    /// GPU memory that it cannot do without [bytes]: none.
+    /// Required GPU memory [bytes]: none.
     static std::uint64_t device_bytes(const SolveSize&, const LinksOptions&) { return 0; }
 
     /// GPU memory of sweeps on the device, for the ray count of most scenes, at most `shots` per
