@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -58,20 +57,6 @@ bool meets_the_same(const RayHit& one, const RayHit& other)
            std::abs(one.distance - other.distance) <= kRounding * (1.0f + one.distance);
 }
 
-/// Wall time of the fastest run [s].
-double fastest(const std::function<void()>& run)
-{
-    double best = std::numeric_limits<double>::infinity();
-    for (int n = 0; n < kTimes; ++n) {
-        Stopwatch watch;
-        watch.start();
-        run();
-        watch.stop();
-        best = std::min(best, watch.wall);
-    }
-    return best;
-}
-
 void print_rate(const std::string& name, double seconds, const std::string& note)
 {
     fmt::print("{:<28} {:>10.1f}  {}\n", name, 1e-6 * double(kRays) / seconds, note);
@@ -82,7 +67,7 @@ std::vector<RayHit> time_caster(const RayCaster& caster, const std::vector<RaySp
                                 const std::vector<RayHit>& by_host)
 {
     std::vector<RayHit> hits(rays.size());
-    const double seconds = fastest([&] {
+    const double seconds = fastest(kTimes, [&] {
         parallel_for(rays.size() / caster.batch(), 1, [&](std::size_t first, std::size_t last) {
             for (std::size_t n = first; n < last; ++n) {
                 const std::size_t begin = n * caster.batch(), count = caster.batch();

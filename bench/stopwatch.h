@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "base/core/usage.h"
 
 namespace lumel::bench {
@@ -22,5 +25,20 @@ public:
 private:
     double cpu_start_ = 0.0, wall_start_ = 0.0;
 };
+
+/// Wall time of the fastest of `times` runs [s].
+template <class Run>
+double fastest(int times, const Run& run)
+{
+    double best = std::numeric_limits<double>::infinity();
+    for (int n = 0; n < times; ++n) {
+        Stopwatch watch;
+        watch.start();
+        run();
+        watch.stop();
+        best = std::min(best, watch.wall);
+    }
+    return best;
+}
 
 }  // namespace lumel::bench

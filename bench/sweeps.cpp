@@ -1,12 +1,12 @@
 // How fast the host and the device sweep over links.
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 
 #include <fmt/core.h>
 
 #include "atlas/cells/order.h"
+#include "base/core/error.h"
 #include "bench/modes.h"
 #include "bench/stopwatch.h"
 #include "links/rays/tracer.h"
@@ -21,20 +21,6 @@ constexpr std::uint16_t kRays = 32;
 constexpr double kResidual = 1e-3;
 /// Runs of each, of which the fastest counts.
 constexpr int kTimes = 3;
-
-/// Wall time of the fastest run [ms].
-double fastest(const std::function<void()>& run)
-{
-    double best = std::numeric_limits<double>::infinity();
-    for (int n = 0; n < kTimes; ++n) {
-        Stopwatch watch;
-        watch.start();
-        run();
-        watch.stop();
-        best = std::min(best, 1e3 * watch.wall);
-    }
-    return best;
-}
 
 /// One solution's links of a scene, traced by the CPU.
 struct Traced {
@@ -76,26 +62,29 @@ void time_sweeps(const gpu::Device& device, const SolveScene& world)
     const LinkSolver solver(traced.work, traced.parts, traced.numbers);
     LinkSolver::Swept host{}, found{};
     std::vector<glm::vec3> received, by_device;
-    const double on_host = fastest([&] {
-        received.clear();
-        host = solver.solve(traced.links, traced.source, kResidual, received);
-    });
+    const double on_host = 1e3 * fastest(kTimes, [&] {
+                               received.clear();
+                               host =
+                                   solver.solve(traced.links, traced.source, kResidual, received);
+                           });
     DeviceSweeps sweeps(device, solver.albedo());
     DeviceLinks copy;
-    const double copying = fastest([&] {
-        copy = {};
-        copy.update(device, {traced.work, traced.parts, traced.numbers}, traced.links);
-    });
+    const double copying =
+        1e3 * fastest(kTimes, [&] {
+            copy = {};
+            copy.update(device, {traced.work, traced.parts, traced.numbers}, traced.links);
+        });
     double kernels = std::numeric_limits<double>::infinity();
-    const double on_device = fastest([&] {
-        by_device.clear();
-        const gpu::StageTimes before = sweeps.times();
-        found = solver.solve_on(sweeps, copy, traced.links, traced.source, kResidual, by_device);
-        double sum = 0.0;
-        for (const auto& [kind, ms] : sweeps.times())
-            sum += ms - (before.contains(kind) ? before.at(kind) : 0.0);
-        kernels = std::min(kernels, sum);
-    });
+    const double on_device = 1e3 * fastest(kTimes, [&] {
+                                 by_device.clear();
+                                 const gpu::StageTimes before = sweeps.times();
+                                 found = solver.solve_on(sweeps, copy, traced.links, traced.source,
+                                                         kResidual, by_device);
+                                 double sum = 0.0;
+                                 for (const auto& [kind, ms] : sweeps.times())
+                                     sum += ms - (before.contains(kind) ? before.at(kind) : 0.0);
+                                 kernels = std::min(kernels, sum);
+                             });
     fmt::print("\n{:<28} {:>10} {:>10}  {} sub-lumels, {} rays each, {} sweeps\n",
                "sweeps over links [ms]", "each", "all", traced.parts.count(), kRays, host.sweeps);
     print("host", on_host, host.sweeps);

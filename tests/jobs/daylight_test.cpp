@@ -89,6 +89,15 @@ WeatherOfHour mixed(int hour)
                               : WeatherOfHour{.diffuse = 20.0 + 130.0 * up};
 }
 
+/// The same days with illuminance.
+WeatherOfHour mixed_with_lux(int hour)
+{
+    WeatherOfHour is = mixed(hour);
+    is.direct_lux = 100.0 * is.direct;
+    is.diffuse_lux = 120.0 * is.diffuse;
+    return is;
+}
+
 /// The sky of an hour as an image, by each texel's own direction.
 Sky image_of_hour(const Weather& weather, const WeatherHour& hour)
 {
@@ -451,12 +460,7 @@ TEST(DaylightMaps, AreAsManyAsThePatternsOfTheYear)
 /// Open black ground has the light of the sky, and no more.
 TEST(DaylightMaps, OfOpenGroundAreTheSky)
 {
-    const Weather weather = weather_of(weather_text([](int hour) {
-        WeatherOfHour is = mixed(hour);
-        is.direct_lux = 100.0 * is.direct;
-        is.diffuse_lux = 120.0 * is.diffuse;
-        return is;
-    }));
+    const Weather weather = weather_of(weather_text(mixed_with_lux));
     const DaylightYear year(weather, {0, 24});
     const SolveScene open(open_place(), {.size = 16});
     const DaylightMaps maps = daylight_maps(open, {.size = 16}, year, 1);
@@ -477,12 +481,7 @@ TEST(DaylightMaps, LightEachSideOfASheetByItself)
 {
     constexpr float kWide = 200.0f, kHigh = 5.0f;
     constexpr double kAlbedo = 0.5;
-    const Weather weather = weather_of(weather_text([](int hour) {
-        WeatherOfHour is = mixed(hour);
-        is.direct_lux = 100.0 * is.direct;
-        is.diffuse_lux = 120.0 * is.diffuse;
-        return is;
-    }));
+    const Weather weather = weather_of(weather_text(mixed_with_lux));
     const DaylightYear year(weather, {0, 24});
     const AtlasOptions options{.size = 64, .daylit = true};
     const SolveScene place(support::make_quads({{.corner = {-kWide / 2.0f, 0.0f, kWide / 2.0f},

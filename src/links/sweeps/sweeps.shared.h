@@ -13,7 +13,7 @@ LUMEL_SHARED_BEGIN
 /// words side by side.
 LUMEL_CONST uint kSliceRows = 32u;
 
-/// What follows the ends of a slice's links, each in the same order.
+/// Further words of a slice's links, stored after their ends in the same order.
 LUMEL_CONST uint kWeights = 1u;  ///< floats
 LUMEL_CONST uint kColors = 2u;   ///< weights of near links, RGB9E5
 

@@ -35,8 +35,8 @@ std::vector<Row> light_rows(std::span<const float> root, std::span<const float> 
     return rows;
 }
 
-/// What is left of the hours' light, as rows R [hours][n], and of its products Rᵀ R [n][n]. In
-/// double precision: small remainders are differences of large numbers.
+/// Residuals of the hours' light as rows R [hours][n], and their products Rᵀ R [n][n]. In double
+/// precision: small residuals are differences of large numbers.
 class Rows {
 public:
     Rows(std::span<const float> root, std::span<const float> sources, std::uint32_t n)

@@ -21,7 +21,7 @@ struct DaylightMaps {
     std::vector<Estimates> light;    ///< [K][N] irradiance [lx]
     std::vector<float> weights;      ///< [hours of the year][K], of any sign
     std::vector<double> mean;        ///< [hours of the year] mean over all surfaces [lx]
-    /// [N] By which lumels count in errors, see error_weights.h.
+    /// [N] Weights of lumels in errors, see error_weights.h.
     std::vector<float> lumel_weights;
     double error = 0.0;  ///< that is due to the number of maps, as in ChosenHours
     /// [hours of the year] Estimated error by that, by the positions of the sun and by rays,

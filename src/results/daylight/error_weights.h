@@ -1,5 +1,5 @@
 #pragma once
-// What each lumel counts in the error of daylight.
+// Weights of lumels in the error of daylight.
 
 #include <span>
 #include <vector>

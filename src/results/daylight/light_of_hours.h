@@ -15,7 +15,7 @@ namespace lumel {
 struct LightOfHours {
     /// [hours][N] Irradiance by the sky, and by the sun after one reflection and more [lx].
     std::vector<Estimates> light;
-    /// [N] What each lumel counts in errors, see error_weights.h.
+    /// [N] Weights of lumels in errors, see error_weights.h.
     std::vector<float> weights;
     /// Estimated error by rays and filter of a typical hour, relative to its light.
     double noise = 0.0;
