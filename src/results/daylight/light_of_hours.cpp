@@ -66,7 +66,7 @@ public:
         for (std::uint32_t half = 0; half < light.halves.size(); ++half)
             rays_.visit(lumel, kToSky / 2, PathSamples::hash(seed_, half),
                         [&](const glm::vec3& direction, const glm::vec3& found) {
-                            light.of_sky[lumel] += 0.5f * luminance(found);
+                            light.of_sky[lumel] += float(0.5 * luminance(found));
                             add(lumel, half, year_.patches().at(direction), found, light);
                         });
         for (std::size_t m = 0; m < hours_.size(); ++m)
