@@ -207,16 +207,17 @@ std::uint32_t CellPoints::nearest(const glm::vec3& position) const
 CellPoints cell_points(const WorldLumels& world, const Cells& cells, std::size_t i)
 {
     CellPoints points;
-    for (int y = 0; y < kCellSide; ++y)
-        for (int x = 0; x < kCellSide; ++x) {
-            const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / float(kCellSide);
-            const LumelPoint point = world.point_on(i, at);
-            const std::uint32_t cell = cells.cell(i, point.position);
-            if (!points.has(cell)) {
-                points.point[cell] = point;
-                points.used |= 1u << cell;
+    for (const Piece& piece : world.pieces(world[i]))
+        for (int y = 0; y < kCellSide; ++y)
+            for (int x = 0; x < kCellSide; ++x) {
+                const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / float(kCellSide);
+                const LumelPoint point = point_in(piece, at.x, at.y);
+                const std::uint32_t cell = cells.cell(i, point.position);
+                if (!points.has(cell)) {
+                    points.point[cell] = point;
+                    points.used |= 1u << cell;
+                }
             }
-        }
     return points;
 }
 

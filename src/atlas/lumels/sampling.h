@@ -15,6 +15,16 @@ struct LumelPoint {
     glm::vec3 normal;
 };
 
+/// Maps (u, v) in the unit square to a point of a piece, uniform by area.
+inline LumelPoint point_in(const Piece& piece, float u, float v)
+{
+    if (piece.parallelogram == 0 && u + v > 1.0f) {
+        u = 1.0f - u;
+        v = 1.0f - v;
+    }
+    return {piece.origin + u * piece.edge_u + v * piece.edge_v, piece.normal};
+}
+
 /// Maps (s, t) in the unit square to a point of the lumel with these pieces, uniform by area.
 inline LumelPoint point_on(std::span<const Piece> pieces, float s, float t)
 {
@@ -25,13 +35,7 @@ inline LumelPoint point_on(std::span<const Piece> pieces, float s, float t)
         below = pieces[index++].share;
     const Piece& piece = pieces[index];
     const float width = piece.share - below;
-    float u = width > 0.0f ? std::clamp((s - below) / width, 0.0f, 1.0f) : 0.5f;
-    float v = t;
-    if (piece.parallelogram == 0 && u + v > 1.0f) {
-        u = 1.0f - u;
-        v = 1.0f - v;
-    }
-    return {piece.origin + u * piece.edge_u + v * piece.edge_v, piece.normal};
+    return point_in(piece, width > 0.0f ? std::clamp((s - below) / width, 0.0f, 1.0f) : 0.5f, t);
 }
 
 /// Maps (s, t) to a point in the lumel's instance frame.
