@@ -87,6 +87,23 @@ TEST(Pyramid, NoiseOfEvenLightFallsToATenth)
               0.1 * double(kNoise) / std::sqrt(3.0));
 }
 
+/// Beside a wall, light changes with the distance to it, and noise can pass for that.
+TEST(Pyramid, NoiseBesideAWallFallsToAQuarter)
+{
+    FilterChart chart = flat_chart();
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+            chart.nearness[chart.at(x, y)] = 1.0f / (float(y) + 0.5f);
+    const auto corner = [](int, int y) { return 1.0f - 0.3f / (1.0f + 0.2f * float(y)); };
+    const std::vector<float> mean = filtered(chart, solutions_of(corner));
+    for (int y = 1; y < 4; ++y) {
+        double squares = 0.0;
+        for (int x = 0; x < kSide; ++x)
+            squares += std::pow(double(mean[chart.at(x, y)] - corner(x, y)), 2.0) / double(kSide);
+        EXPECT_LT(std::sqrt(squares), 0.25 * double(kNoise) / std::sqrt(3.0)) << y;
+    }
+}
+
 TEST(Pyramid, LightWithoutNoiseIsLeftAsItIs)
 {
     const auto wave = [](int x, int y) { return 2.0f + std::sin(0.7f * float(x) + float(y)); };
