@@ -5,13 +5,10 @@
 
 #include <fmt/core.h>
 
-#include "atlas/cells/order.h"
 #include "base/core/error.h"
 #include "bench/modes.h"
 #include "bench/stopwatch.h"
-#include "links/rays/tracer.h"
-#include "links/sweeps/sweeps.h"
-#include "rays/cast/ray_caster.h"
+#include "bench/traced_links.h"
 
 namespace lumel::bench {
 namespace {
@@ -22,33 +19,6 @@ constexpr double kResidual = 1e-3;
 /// Runs of each, of which the fastest counts.
 constexpr int kTimes = 3;
 
-/// One solution's links of a scene, traced by the CPU.
-struct Traced {
-    explicit Traced(const SolveScene& world)
-        : work(world, {cast_on_host(world.rays)}, SampleRule::area, order_in_space),
-          parts(work.world, work.cells, world.rays, world.lumels, work.order, kPartStream),
-          direct(work, kDirectStream),
-          numbers(world.scene.instances.size(), parts.count()),
-          tracer(work, parts, numbers, direct, 1),
-          links(parts.count())
-    {
-        while (direct.step()) {
-        }
-        links.rounds.emplace_back(tracer.blocks());
-        const std::vector<std::uint16_t> rays(work.order.size(), kRays);
-        tracer.trace(0, tracer.blocks(), {rays, kLinkStream, nullptr, nullptr}, links);
-        source = find_source_term(work, parts, numbers, {work, parts, numbers, direct}, links);
-    }
-
-    LinkWork work;
-    SubLumels parts;
-    DirectEstimator direct;
-    LinkNumbers numbers;
-    LinkTracer tracer;
-    LinkTable links;
-    SourceTerm source;
-};
-
 void print(const char* name, double milliseconds, int sweeps)
 {
     fmt::print("{:<28} {:>10.3f} {:>10.2f}\n", name, milliseconds / sweeps, milliseconds);
@@ -58,8 +28,9 @@ void print(const char* name, double milliseconds, int sweeps)
 
 void time_sweeps(const gpu::Device& device, const SolveScene& world)
 {
-    const Traced traced(world);
-    const LinkSolver solver(traced.work, traced.parts, traced.numbers);
+    TracedLinks traced(world);
+    traced.trace(kRays);
+    const LinkSolver& solver = traced.solver;
     LinkSolver::Swept host{}, found{};
     std::vector<glm::vec3> received, by_device;
     const double on_host = 1e3 * fastest(kTimes, [&] {

@@ -1,42 +1,23 @@
 #pragma once
 // Scenes whose links are traced round by round, for tests of sweeps.
 
-#include <cstdint>
 #include <utility>
-#include <vector>
 
-#include "atlas/cells/order.h"
-#include "links/rays/tracer.h"
-#include "links/sweeps/sweeps.h"
-#include "rays/cast/ray_caster.h"
+#include "../../../bench/traced_links.h"
 
 namespace lumel::support {
 
-struct TracedScene {
+struct OwnScene {
+    SolveScene scene;
+};
+
+struct TracedScene : OwnScene, bench::TracedLinks {
     /// of: arguments of SolveScene.
     template <class... Arguments>
     explicit TracedScene(Arguments&&... of)
-        : scene(std::forward<Arguments>(of)...),
-          work(scene, {cast_on_host(scene.rays)}, SampleRule::area, order_in_space),
-          parts(work.world, work.cells, scene.rays, scene.lumels, work.order, kPartStream),
-          direct(work, kDirectStream),
-          numbers(scene.scene.instances.size(), parts.count()),
-          tracer(work, parts, numbers, direct, 1),
-          solver(work, parts, numbers),
-          links(parts.count())
+        : OwnScene{SolveScene(std::forward<Arguments>(of)...)},
+          TracedLinks(scene)
     {
-        while (direct.step()) {
-        }
-    }
-
-    /// Adds a round of links with other random numbers.
-    void trace(std::uint16_t rays, const RayGuide* guide = nullptr)
-    {
-        links.rounds.emplace_back(tracer.blocks());
-        const std::vector<std::uint16_t> each(work.order.size(), rays);
-        LinkTracer::Sending sending{each, kLinkStream + ++streams, nullptr, guide};
-        tracer.trace(0, tracer.blocks(), sending, links);
-        source = find_source_term(work, parts, numbers, {work, parts, numbers, direct}, links);
     }
 
     /// A guide by which every other bin gets a third of the rays of its neighbours.
@@ -47,17 +28,6 @@ struct TracedScene {
             guide.tables[0].probabilities[b] = std::uint16_t(b % 2 == 0 ? 128 : 384);
         return guide;
     }
-
-    SolveScene scene;
-    LinkWork work;
-    SubLumels parts;
-    DirectEstimator direct;
-    LinkNumbers numbers;
-    LinkTracer tracer;
-    LinkSolver solver;
-    LinkTable links;
-    SourceTerm source;
-    std::uint32_t streams = 0;  ///< of random numbers, so far
 };
 
 }  // namespace lumel::support
