@@ -41,10 +41,10 @@ Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place, const Nam
       bytes_(bytes)
 {
     if (place == Place::device && bytes > device.max_array_bytes())
-        throw Error(ErrorKind::device, device.info().name,
-                    "an array of " + std::to_string(bytes >> 20) + " MiB is larger than the " +
-                        std::to_string(device.max_array_bytes() >> 20) +
-                        " MiB this device allows; use a smaller --size");
+        throw OutOfMemory(device.info().name, "an array of " + std::to_string(bytes >> 20) +
+                                                  " MiB is larger than the " +
+                                                  std::to_string(device.max_array_bytes() >> 20) +
+                                                  " MiB this device allows; use a smaller --size");
     const VkBufferCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage_of(place)};
     check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_), "vkCreateBuffer");

@@ -21,8 +21,7 @@ void check(VkResult result, const char* call)
                     "the graphics device was lost; another program or a driver time limit reset "
                     "it. Run again, with a smaller --batch if it recurs");
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
-        throw Error(ErrorKind::device, call,
-                    "out of graphics memory; use a smaller --size or --batch");
+        throw OutOfMemory(call, "out of graphics memory; use a smaller --size or --batch");
     throw Error(ErrorKind::device, call, "Vulkan error " + std::to_string(int(result)));
 }
 

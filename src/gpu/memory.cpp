@@ -67,9 +67,9 @@ Memory::Part Memory::take(const VkMemoryRequirements& requirements, MemoryUse us
             peak_bytes_ = std::max(peak_bytes_, held_bytes_);
             return part;
         }
-    throw Error(ErrorKind::device, name_,
-                suits ? "is out of memory; use a smaller --size"
-                      : "has no memory of the kind needed");
+    if (!suits)
+        throw Error(ErrorKind::device, name_, "has no memory of the kind needed");
+    throw OutOfMemory(name_, "is out of memory; use a smaller --size");
 }
 
 bool Memory::take_of_type(std::uint32_t type, const VkMemoryRequirements& requirements,

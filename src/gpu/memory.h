@@ -47,8 +47,8 @@ public:
     Memory(const Memory&) = delete;
     Memory& operator=(const Memory&) = delete;
 
-    /// name: of the resource, see names.h. Throws Error{device} if there is too little memory or
-    /// none of the required type.
+    /// name: of the resource, see names.h. Throws OutOfMemory if there is too little memory,
+    /// Error{device} if there is none of the required type.
     Part take(const VkMemoryRequirements& requirements, MemoryUse use, const std::string& name);
     void give_back(const Part& part);
 

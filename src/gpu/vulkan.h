@@ -1,6 +1,8 @@
 #pragma once
 // The Vulkan C API through volk, which finds the loader at run time; nothing is linked.
 
+#include <string>
+
 #include <volk.h>
 #include <vulkan/vulkan.h>
 
@@ -8,8 +10,18 @@
 
 namespace lumel::gpu {
 
-/// Throws Error{device} unless `result` is success. The message names the call and, for a lost
-/// device or lack of memory, the remedy.
+/// Error{device} where less work, or none on the device, would do: too little GPU memory, or an
+/// array longer than the device allows.
+class OutOfMemory : public Error {
+public:
+    OutOfMemory(const std::string& where, const std::string& what)
+        : Error(ErrorKind::device, where, what)
+    {
+    }
+};
+
+/// Throws Error{device} unless `result` is success, for lack of memory OutOfMemory. The message
+/// names the call and, for these and a lost device, the remedy.
 void check(VkResult result, const char* call);
 
 }  // namespace lumel::gpu

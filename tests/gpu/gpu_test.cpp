@@ -141,6 +141,21 @@ TEST(Array, SharesMemoryWithOthersButNoByte)
         return std::vector<std::uint32_t>(1 + 97 * i, std::uint32_t(i));
     };
     for (std::size_t i = 0; i < 400; ++i) {
+TEST(Device, ThatIsLostDoesNotLackMemory)
+{
+    for (const VkResult lack : {VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_OUT_OF_HOST_MEMORY})
+        EXPECT_THROW(check(lack, "call"), OutOfMemory);
+    for (const VkResult other : {VK_ERROR_DEVICE_LOST, VK_ERROR_INITIALIZATION_FAILED})
+        try {
+            check(other, "call");
+            FAIL() << other;
+        } catch (const OutOfMemory&) {
+            FAIL() << other;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::device);
+        }
+}
+
         arrays.emplace_back(device, std::span<const std::uint32_t>(values_of(i)));
         if (i % 3 == 2)  // gaps of many sizes to be filled again
             arrays.erase(arrays.begin() + std::ptrdiff_t(arrays.size() / 2));
@@ -201,7 +216,7 @@ TEST(Array, ComesBackAsItWent)
 TEST(Array, LargerThanTheDeviceAllowsSaysSo)
 {
     const Device device;
-    EXPECT_THROW(Array<std::uint32_t>(device, device.max_array_bytes() / 4 + 1), Error);
+    EXPECT_THROW(Array<std::uint32_t>(device, device.max_array_bytes() / 4 + 1), OutOfMemory);
 }
 
 TEST(Memory, LargerThanTheLargestHeapIsRefusedBeforeTheDriverIsAsked)
@@ -214,7 +229,7 @@ TEST(Memory, LargerThanTheLargestHeapIsRefusedBeforeTheDriverIsAsked)
         largest = std::max(largest, properties.memoryHeaps[i].size);
     const VkMemoryRequirements too_much{largest + 1, 1, ~0u};
     for (const MemoryUse use : {MemoryUse::array, MemoryUse::image, MemoryUse::host})
-        EXPECT_THROW(device.memory().take(too_much, use, "too much"), Error);
+        EXPECT_THROW(device.memory().take(too_much, use, "too much"), OutOfMemory);
     EXPECT_EQ(device.validation_messages(), "");
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/core/bytes.h"
-#include "base/core/error.h"
 #include "base/core/parallel.h"
 
 namespace lumel {
@@ -191,8 +190,8 @@ private:
             return;
         bytes_ += bytes_of(slices_) + bytes_of(words_);
         if (most_ > 0 && bytes_ > most_)
-            throw Error(ErrorKind::device, device_.info().name,
-                        "has too little memory for links beside all else");
+            throw gpu::OutOfMemory(device_.info().name,
+                                   "has too little memory for links beside all else");
         slabs_.push_back({{device_, slices_, "slices of links"}, {device_, words_, "links"}});
         slices_.clear();
         words_.clear();

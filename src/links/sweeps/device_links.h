@@ -27,8 +27,8 @@ public:
         const LinkNumbers& numbers;
     };
 
-    /// Adds the rounds that were added to `links` since the last call. Throws Error{device} if they
-    /// take more than `most` [bytes], 0: no limit, or if the device lacks memory.
+    /// Adds the rounds that were added to `links` since the last call. Throws gpu::OutOfMemory if
+    /// they take more than `most` [bytes], 0: no limit, or more than the device has.
     void update(const gpu::Device& device, const Numbering& numbering, const LinkTable& links,
                 std::uint64_t most = 0);
 

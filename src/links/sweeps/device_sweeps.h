@@ -23,8 +23,7 @@ namespace lumel {
 /// Sweeps of one solution at a time. Light stays on the device; of each sweep it returns only sums.
 class DeviceSweeps {
 public:
-    /// albedo: [P]. Arguments must outlive this. Throws Error{device} if the device lacks memory or
-    /// its arrays are too short.
+    /// albedo: [P]. Arguments must outlive this. Throws gpu::OutOfMemory.
     DeviceSweeps(const gpu::Device& device, const std::vector<glm::vec3>& albedo);
 
     /// GPU memory of these sub-lumels, without links [bytes].

@@ -41,7 +41,7 @@ public:
                 std::vector<glm::vec3>& received, double least_factor = 0.0) const;
 
     /// The same on a GPU, with the same results bit for bit. links: a copy on that device. Throws
-    /// Error{device} if the device lacks memory; `received` is then unchanged.
+    /// gpu::OutOfMemory; `received` is then unchanged.
     Swept solve_on(DeviceSweeps& device, const DeviceLinks& copy, const LinkTable& links,
                    const SourceTerm& source, double residual, std::vector<glm::vec3>& received,
                    double least_factor = 0.0) const;

@@ -272,14 +272,14 @@ void LinkRadiosity::begin_links()
         links->rounds.emplace_back(tracer_->blocks());
 }
 
-/// Sweeps on the device, if it has enough memory. Throws Error{device} if not.
+/// Sweeps on the device. Throws gpu::OutOfMemory.
 double LinkRadiosity::sweep_on(const gpu::Device& device, std::size_t k, double least_factor)
 {
     std::uint64_t left = most_device_bytes_;
     const auto take = [&](std::uint64_t bytes) {
         if (left > 0 && bytes >= left)
-            throw Error(ErrorKind::device, device.info().name,
-                        "has too little memory for sweeps beside all else");
+            throw gpu::OutOfMemory(device.info().name,
+                                   "has too little memory for sweeps beside all else");
         left -= left > 0 ? bytes : 0;
     };
     take(DeviceSweeps::bytes(parts_->count()));
@@ -301,9 +301,7 @@ double LinkRadiosity::sweep(std::size_t k, double least_factor)
     if (sweeping_)
         try {
             return sweep_on(*sweeping_, k, least_factor);
-        } catch (const Error& error) {
-            if (error.kind() != ErrorKind::device)
-                throw;
+        } catch (const gpu::OutOfMemory& error) {
             log_info(std::string("sweeping on the CPU: ") + error.what());
             sweeping_ = nullptr;
             device_sweeps_.reset();

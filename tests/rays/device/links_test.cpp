@@ -1,14 +1,18 @@
 // Links whose rays a device casts, against those of the host and against a closed form.
 
+#include <sstream>
 #include <tuple>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include "../../jobs/closed_room.h"
 #include "../../support/closed_forms.h"
 #include "base/core/log.h"
+#include "base/core/state_bytes.h"
 #include "compared_links.h"
 #include "links/sweeps/device_sweeps.h"
+#include "links/trace/links.h"
 
 namespace lumel {
 namespace {
@@ -82,6 +86,62 @@ TEST_P(LinksByDevice, AreSweptOnTheCpuWhereTheDeviceLacksMemory)
     EXPECT_GE(log.messages().size(), 2u);
     for (const std::string& message : log.messages())
         EXPECT_NE(message.find("sweeping on the CPU"), std::string::npos) << message;
+}
+
+/// The device is lost as long as this lives: submissions to it fail.
+class LostDevice {
+public:
+    LostDevice()
+        : submit_(std::exchange(vkQueueSubmit2,
+                                [](VkQueue, std::uint32_t, const VkSubmitInfo2*,
+                                   VkFence) -> VkResult { return VK_ERROR_DEVICE_LOST; }))
+    {
+    }
+    ~LostDevice() { vkQueueSubmit2 = submit_; }
+    LostDevice(const LostDevice&) = delete;
+    LostDevice& operator=(const LostDevice&) = delete;
+
+private:
+    PFN_vkQueueSubmit2 submit_;
+};
+
+std::string error_of_step(Solver& solver)
+{
+    try {
+        solver.step();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST_P(LinksByDevice, EndWhereTheDeviceIsLostAndGoOnFromTheStepBefore)
+{
+    const SolveScene world(support::scene_path("cornell-box"), {.size = 32});
+    const LinksOptions options{.rays = GetParam().option};
+    LinkRadiosity undisturbed(&device, world, options, {}, Parts::all),
+        lost(&device, world, options, {}, Parts::all),
+        resumed(&device, world, options, {}, Parts::all);
+    // The last step sweeps.
+    while (undisturbed.state().shots == 0)
+        undisturbed.step();
+    while (lost.state().iterations + 1 < undisturbed.state().iterations)
+        lost.step();
+    std::stringstream kept;
+    StateWriter writer(kept);
+    lost.write_state(writer);
+    writer.finish();
+    {
+        const LostDevice loss;
+        const LogCapture log;
+        EXPECT_NE(error_of_step(lost).find("the graphics device was lost"), std::string::npos);
+        EXPECT_TRUE(log.messages().empty()) << log.messages()[0];
+    }
+    StateReader reader(kept, kept.str().size(), "state");
+    resumed.read_state(reader);
+    reader.finish();
+    resumed.step();
+    EXPECT_EQ(resumed.irradiance(), undisturbed.irradiance());
 }
 
 }  // namespace
