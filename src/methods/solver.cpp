@@ -7,8 +7,10 @@
 
 namespace lumel {
 
-bool solve(Solver& solver, const SolverOptions& options,
-           const std::function<bool(const SolverState&)>& go_on)
+namespace {
+
+bool step_on(Solver& solver, const SolverOptions& options,
+             const std::function<bool(const SolverState&)>& go_on)
 {
     const auto start = std::chrono::steady_clock::now();
     for (;;) {
@@ -36,6 +38,16 @@ bool solve(Solver& solver, const SolverOptions& options,
             return true;
         solver.step();
     }
+}
+
+}  // namespace
+
+bool solve(Solver& solver, const SolverOptions& options,
+           const std::function<bool(const SolverState&)>& go_on)
+{
+    const bool is_finished = step_on(solver, options, go_on);
+    solver.release();
+    return is_finished;
 }
 
 }  // namespace lumel

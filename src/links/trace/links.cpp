@@ -217,7 +217,6 @@ void LinkRadiosity::cut()
                    PathSamples::hash(options_.seed, kPartStream));
     numbers_.emplace(work_.scene.scene.instances.size(), parts_->count());
     solver_.emplace(work_, *parts_, *numbers_);
-    device_sweeps_.reset();
     find_light();
 }
 
@@ -229,7 +228,7 @@ void LinkRadiosity::find_light()
                     options_.outside_light);
     for (std::optional<LinkTable>& links : links_)
         links.emplace(parts_->count());
-    device_links_ = {};
+    release();
     sealed_.emplace(work_, *parts_, *numbers_);
 }
 
@@ -294,6 +293,12 @@ double LinkRadiosity::sweep_on(const gpu::Device& device, std::size_t k, double 
         .factor;
 }
 
+void LinkRadiosity::release()
+{
+    device_sweeps_.reset();
+    device_links_ = {};
+}
+
 /// Solves over the links of a solution, on the device that casts rays or on the CPU.
 /// Returns the factor between changes.
 double LinkRadiosity::sweep(std::size_t k, double least_factor)
@@ -304,8 +309,7 @@ double LinkRadiosity::sweep(std::size_t k, double least_factor)
         } catch (const gpu::OutOfMemory& error) {
             log_info(std::string("sweeping on the CPU: ") + error.what());
             sweeping_ = nullptr;
-            device_sweeps_.reset();
-            device_links_ = {};
+            release();
         }
     return solver_->solve(*links_[k], sources_[k], sweep_residual(), received_[k], least_factor)
         .factor;

@@ -72,6 +72,7 @@ public:
     /// `shots` are rays per lumel.
     void step() override;
     SolverState state() const override { return state_; }
+    void release() override;
     std::vector<glm::vec3> irradiance() override;
     /// [N] Estimated error of each lumel relative to its light, 0…1, without the filter's bias; 1
     /// before the first round has ended, 0 for buried lumels.

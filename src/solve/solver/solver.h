@@ -22,6 +22,8 @@ public:
     /// One pass of the paper's outer loop: records and submits it.
     virtual void step() = 0;
     virtual SolverState state() const = 0;
+    /// Frees GPU memory that only steps use; a further step takes it again.
+    virtual void release() {}
     /// Current H [N] [lx]. Waits for the device.
     virtual std::vector<glm::vec3> irradiance() = 0;
     /// Instances whose visible noise is above the target, noisiest first; empty for methods that do

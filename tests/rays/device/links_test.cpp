@@ -144,5 +144,41 @@ TEST_P(LinksByDevice, EndWhereTheDeviceIsLostAndGoOnFromTheStepBefore)
     EXPECT_EQ(resumed.irradiance(), undisturbed.irradiance());
 }
 
+/// GPU memory of sweeps and of links.
+std::uint64_t bytes_of_sweeps(const gpu::Device& device)
+{
+    std::uint64_t bytes = 0;
+    for (const gpu::Holding& holding : device.memory().holdings())
+        if (holding.name == "light sent" || holding.name == "links")
+            bytes += holding.bytes;
+    return bytes;
+}
+
+TEST_P(LinksByDevice, LeaveTheDevicesMemoryOnceTheyAreSolved)
+{
+    const SolveScene world(support::scene_path("cornell-box"), {.size = 32});
+    const SolverOptions options = links(0.02);
+    const auto& method = std::get<LinksOptions>(options.method);
+    LinkRadiosity solver(&device, world, method, options.limits(), Parts::all),
+        other(&device, world, method, options.limits(), Parts::all);
+    std::uint64_t most = 0;
+    int changes = 0;
+    EXPECT_TRUE(solve(solver, options, [&](const SolverState&) {
+        const std::uint64_t bytes = bytes_of_sweeps(device);
+        EXPECT_GE(bytes, most) << "between rounds";
+        changes += bytes > most;
+        most = bytes;
+        return true;
+    }));
+    EXPECT_GE(changes, 2);
+    EXPECT_EQ(bytes_of_sweeps(device), 0u);
+    // Steps after a release take it again.
+    EXPECT_TRUE(solve(other, options, [&](const SolverState&) {
+        other.release();
+        return true;
+    }));
+    EXPECT_EQ(other.irradiance(), solver.irradiance());
+}
+
 }  // namespace
 }  // namespace lumel
