@@ -11,8 +11,6 @@
 namespace lumel {
 namespace {
 
-/// Maximum memory of a slab's words [bytes].
-constexpr std::uint64_t kSlabBytes = std::uint64_t(64) << 20;
 /// Blocks that are packed at a time, and per task.
 constexpr std::size_t kBlocksAtATime = 64, kPackedPerTask = 8;
 
@@ -155,20 +153,17 @@ private:
 /// Joins packed blocks to slabs.
 class Slabs {
 public:
-    /// most: of all slabs [bytes], 0: no limit.
-    Slabs(const gpu::Device& device, std::uint64_t most)
+    Slabs(const gpu::Device& device, const DeviceLinkLimits& limits)
         : device_(device),
-          most_(most),
-          most_words_(std::min(kSlabBytes, device.max_array_bytes()) / sizeof(std::uint32_t)),
-          most_slices_(std::min(device.max_array_bytes() / sizeof(LinkSlice),
-                                std::uint64_t(device.max_groups()) * kGroup / kSliceRows))
+          most_bytes_(limits.bytes),
+          most_words_(std::min(limits.slab_bytes, device.max_array_bytes()) / sizeof(std::uint32_t))
     {
     }
 
     void add(const PackedBlock& block)
     {
-        if (words_.size() + block.words.size() > most_words_ ||
-            slices_.size() + block.slices.size() > most_slices_)
+        // Slices take less than their words.
+        if (words_.size() + block.words.size() > most_words_)
             upload();
         for (LinkSlice slice : block.slices) {
             slice.first += std::uint32_t(words_.size());
@@ -189,7 +184,7 @@ private:
         if (slices_.empty())
             return;
         bytes_ += bytes_of(slices_) + bytes_of(words_);
-        if (most_ > 0 && bytes_ > most_)
+        if (most_bytes_ > 0 && bytes_ > most_bytes_)
             throw gpu::OutOfMemory(device_.info().name,
                                    "has too little memory for links beside all else");
         slabs_.push_back({{device_, slices_, "slices of links"}, {device_, words_, "links"}});
@@ -198,8 +193,8 @@ private:
     }
 
     const gpu::Device& device_;
-    const std::uint64_t most_;
-    const std::size_t most_words_, most_slices_;
+    const std::uint64_t most_bytes_;
+    const std::size_t most_words_;
     std::vector<DeviceLinks::Slab> slabs_;
     std::uint64_t bytes_ = 0;
     std::vector<LinkSlice> slices_;     ///< of the next slab
@@ -209,9 +204,9 @@ private:
 }  // namespace
 
 void DeviceLinks::update(const gpu::Device& device, const Numbering& numbering,
-                         const LinkTable& links, std::uint64_t most)
+                         const LinkTable& links, const DeviceLinkLimits& limits)
 {
-    Slabs added(device, most);
+    Slabs added(device, limits);
     for (const std::vector<LinkBlock>& round : std::span(links.rounds).subspan(rounds_)) {
         for (std::size_t begin = 0; begin < round.size(); begin += kBlocksAtATime) {
             std::vector<PackedBlock> packed(std::min(kBlocksAtATime, round.size() - begin));

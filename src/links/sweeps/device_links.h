@@ -12,6 +12,12 @@
 
 namespace lumel {
 
+/// Maximum memory of copied links [bytes].
+struct DeviceLinkLimits {
+    std::uint64_t bytes = 0;                             ///< of all that are added, 0: no limit
+    std::uint64_t slab_bytes = std::uint64_t(64) << 20;  ///< of DeviceLinks::Slab::words
+};
+
 /// A copy of a LinkTable, without rays that end at no sub-lumel.
 class DeviceLinks {
 public:
@@ -28,9 +34,9 @@ public:
     };
 
     /// Adds the rounds that were added to `links` since the last call. Throws gpu::OutOfMemory if
-    /// they take more than `most` [bytes], 0: no limit, or more than the device has.
+    /// these take more than limits.bytes, or than the device has.
     void update(const gpu::Device& device, const Numbering& numbering, const LinkTable& links,
-                std::uint64_t most = 0);
+                const DeviceLinkLimits& limits = {});
 
     /// In the order of the rounds.
     std::span<const Slab> slabs() const { return slabs_; }

@@ -6,9 +6,6 @@
 namespace lumel {
 namespace {
 
-/// Workgroups of a kernel that are timed first.
-constexpr std::uint32_t kProbeGroups = 256;
-
 std::size_t groups_of(std::size_t count)
 {
     return (count + kGroup - 1) / kGroup;
@@ -26,10 +23,13 @@ DeviceSweeps::Levels::Levels(const gpu::Device& device, const LevelCorrection& l
 {
 }
 
-DeviceSweeps::DeviceSweeps(const gpu::Device& device, const std::vector<glm::vec3>& albedo)
+DeviceSweeps::DeviceSweeps(const gpu::Device& device, const std::vector<glm::vec3>& albedo,
+                           const SweepDispatches& dispatches)
     : device_(device),
       albedo_(albedo),
       parts_(albedo.size()),
+      dispatches_{.probe = dispatches.probe,
+                  .most = std::min(dispatches.most, device.max_groups())},
       gather_(device),
       receive_(device),
       sum_groups_(device),
@@ -88,9 +88,9 @@ void DeviceSweeps::dispatch(const char* kind, std::size_t threads,
                             const gpu::Kernel<Shader>& kernel,
                             const typename Shader::Bindings& given, typename Shader::Params params)
 {
-    const auto groups = std::uint32_t(groups_of(threads)), most = device_.max_groups();
-    for (std::uint32_t begin = 0; begin < groups; begin += most)
-        pacer_.work(kind, std::min(most, groups - begin), kProbeGroups,
+    const auto groups = std::uint32_t(groups_of(threads));
+    for (std::uint32_t begin = 0; begin < groups; begin += dispatches_.most)
+        pacer_.work(kind, std::min(dispatches_.most, groups - begin), dispatches_.probe,
                     [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
                         params.range = {(begin + first) * kGroup, (begin + last) * kGroup};
                         commands.dispatch(kernel, given, params, (last - first) * kGroup);

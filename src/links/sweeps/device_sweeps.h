@@ -20,11 +20,18 @@
 
 namespace lumel {
 
+/// Sizes of dispatches [workgroups].
+struct SweepDispatches {
+    std::uint32_t probe = 256;  ///< the first of each kernel, to time it
+    std::uint32_t most = ~0u;   ///< fewer if the device allows fewer
+};
+
 /// Sweeps of one solution at a time. Light stays on the device; of each sweep it returns only sums.
 class DeviceSweeps {
 public:
     /// albedo: [P]. Arguments must outlive this. Throws gpu::OutOfMemory.
-    DeviceSweeps(const gpu::Device& device, const std::vector<glm::vec3>& albedo);
+    DeviceSweeps(const gpu::Device& device, const std::vector<glm::vec3>& albedo,
+                 const SweepDispatches& dispatches = {});
 
     /// GPU memory of these sub-lumels, without links [bytes].
     static std::uint64_t bytes(std::size_t parts);
@@ -65,6 +72,7 @@ private:
     const gpu::Device& device_;
     const std::vector<glm::vec3>& albedo_;
     const std::size_t parts_;
+    const SweepDispatches dispatches_;
     gpu::Kernel<shaders::SweepsGather> gather_;
     gpu::Kernel<shaders::SweepsReceive> receive_;
     gpu::Kernel<shaders::SweepsGroups> sum_groups_;

@@ -286,7 +286,7 @@ double LinkRadiosity::sweep_on(const gpu::Device& device, std::size_t k, double 
         take(links.bytes());
     if (!device_sweeps_)
         device_sweeps_.emplace(device, solver_->albedo());
-    device_links_[k].update(device, {work_, *parts_, *numbers_}, *links_[k], left);
+    device_links_[k].update(device, {work_, *parts_, *numbers_}, *links_[k], {.bytes = left});
     return solver_
         ->solve_on(*device_sweeps_, device_links_[k], *links_[k], sources_[k], sweep_residual(),
                    received_[k], least_factor)

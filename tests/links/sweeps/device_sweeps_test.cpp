@@ -54,10 +54,16 @@ protected:
     SweptLight by_device(const support::TracedScene& traced, DeviceSweeps& sweeps,
                          DeviceLinks& copy, SweptLight from = {}) const
     {
-        copy.update(device, {traced.work, traced.parts, traced.numbers}, traced.links);
+        update(copy, traced);
         from.swept = traced.solver.solve_on(sweeps, copy, traced.links, traced.source, kResidual,
                                             from.received, from.swept.factor);
         return from;
+    }
+
+    void update(DeviceLinks& copy, const support::TracedScene& traced,
+                const DeviceLinkLimits& limits = {}) const
+    {
+        copy.update(device, {traced.work, traced.parts, traced.numbers}, traced.links, limits);
     }
 
     /// Solves round after round, the later ones from the light of those before.
@@ -183,6 +189,42 @@ TEST_F(SweepsOnADevice, GiveTheHostsLightOfASceneWithoutLinks)
     traced.links.rounds.clear();
     DeviceSweeps sweeps(device, traced.solver.albedo());
     DeviceLinks copy;
+    EXPECT_TRUE(by_device(traced, sweeps, copy) == by_host(traced));
+}
+
+TEST_F(SweepsOnADevice, GiveTheHostsLightInSmallSlabsAndDispatches)
+{
+    support::TracedScene traced(closed_room(0.99f), AtlasOptions{.size = 64});
+    const RayGuide guide = traced.striped_guide();
+    traced.trace(8);
+    traced.trace(4, &guide);
+    DeviceLinks whole, copy;
+    update(whole, traced);
+    EXPECT_EQ(whole.slabs().size(), traced.links.rounds.size());
+    update(copy, traced, {.slab_bytes = whole.bytes() / 8});
+    EXPECT_GT(copy.slabs().size(), 2 * whole.slabs().size());
+    EXPECT_EQ(copy.bytes(), whole.bytes());
+    // Several dispatches of each kernel, the first of them in two pieces.
+    DeviceSweeps sweeps(device, traced.solver.albedo(), {.probe = 2, .most = 5});
+    EXPECT_TRUE(by_device(traced, sweeps, copy) == by_host(traced));
+    EXPECT_TRUE(sweeps.times().contains("correct levels"));
+}
+
+TEST_F(SweepsOnADevice, KeepTheirLinksWhereThereIsNoMemoryForMore)
+{
+    support::TracedScene traced(support::source_path("scenes/cornell-box.gltf"),
+                                AtlasOptions{.size = 32});
+    traced.trace(8);
+    DeviceLinks copy, other;
+    update(copy, traced);
+    const std::uint64_t before = copy.bytes();
+    traced.trace(12);
+    update(other, traced);
+    const std::uint64_t added = other.bytes() - before;
+    EXPECT_THROW(update(copy, traced, {.bytes = added - 1}), gpu::OutOfMemory);
+    EXPECT_EQ(copy.bytes(), before);
+    update(copy, traced, {.bytes = added});
+    DeviceSweeps sweeps(device, traced.solver.albedo());
     EXPECT_TRUE(by_device(traced, sweeps, copy) == by_host(traced));
 }
 
