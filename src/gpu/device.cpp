@@ -223,6 +223,27 @@ std::string missing_features(VkPhysicalDevice physical, std::uint32_t api_versio
     return missing;
 }
 
+/// Sets the memory of the largest device-local heap.
+void describe_memory(VkPhysicalDevice physical, DeviceInfo& info)
+{
+    VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT};
+    const bool has_budget = has_extension(physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    VkPhysicalDeviceMemoryProperties2 memory{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2,
+        .pNext = has_budget ? &budget : nullptr};
+    vkGetPhysicalDeviceMemoryProperties2(physical, &memory);
+    for (std::uint32_t i = 0; i < memory.memoryProperties.memoryHeapCount; ++i) {
+        const VkMemoryHeap& heap = memory.memoryProperties.memoryHeaps[i];
+        if (!(heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) || heap.size <= info.memory_bytes)
+            continue;
+        info.memory_bytes = info.free_bytes = heap.size;
+        if (has_budget)  // of this process, with what it uses
+            info.free_bytes =
+                budget.heapBudget[i] - std::min(budget.heapUsage[i], budget.heapBudget[i]);
+    }
+}
+
 DeviceInfo describe(VkPhysicalDevice physical)
 {
     VkPhysicalDeviceDriverProperties driver{
@@ -230,18 +251,13 @@ DeviceInfo describe(VkPhysicalDevice physical)
     VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                            .pNext = &driver};
     vkGetPhysicalDeviceProperties2(physical, &properties);
-    VkPhysicalDeviceMemoryProperties memory;
-    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
 
     DeviceInfo info;
     info.name = properties.properties.deviceName;
     info.type = type_text(properties.properties.deviceType);
     info.api_version = version_text(properties.properties.apiVersion);
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
-    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
-        if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
-            info.memory_bytes =
-                std::max<std::uint64_t>(info.memory_bytes, memory.memoryHeaps[i].size);
+    describe_memory(physical, info);
     info.ray_queries = has_ray_queries(physical);
     info.reason = missing_features(physical, properties.properties.apiVersion);
     info.usable = info.reason.empty();

@@ -17,7 +17,9 @@ struct DeviceInfo {
     std::string api_version;         ///< "1.3.230"
     std::string driver;              ///< name and version
     std::uint64_t memory_bytes = 0;  ///< size of the largest device-local heap
-    bool ray_queries = false;        ///< supports VK_KHR_ray_query
+    /// Free memory of that heap when it was listed, by VK_EXT_memory_budget; without, its size.
+    std::uint64_t free_bytes = 0;
+    bool ray_queries = false;  ///< supports VK_KHR_ray_query
     bool usable = false;
     std::string reason;  ///< why it is not usable, else empty
 };

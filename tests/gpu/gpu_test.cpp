@@ -75,6 +75,14 @@ TEST(Device, ThereIsAUsableOne)
     EXPECT_TRUE(std::any_of(devices.begin(), devices.end(), [](auto& d) { return d.usable; }));
 }
 
+TEST(Device, HasFreeMemory)
+{
+    for (const DeviceInfo& info : list_devices()) {
+        EXPECT_GT(info.free_bytes, 0u) << info.name;
+        EXPECT_LE(info.free_bytes, info.memory_bytes) << info.name;
+    }
+}
+
 TEST(Device, AWrongPickIsRefusedWithTheList)
 {
     try {
@@ -133,14 +141,6 @@ TEST(Device, HasWhatItsArraysHold)
     EXPECT_GE(device.peak_bytes(), before + 4000);
 }
 
-TEST(Array, SharesMemoryWithOthersButNoByte)
-{
-    const Device device;
-    std::vector<Array<std::uint32_t>> arrays;
-    const auto values_of = [](std::size_t i) {
-        return std::vector<std::uint32_t>(1 + 97 * i, std::uint32_t(i));
-    };
-    for (std::size_t i = 0; i < 400; ++i) {
 TEST(Device, ThatIsLostDoesNotLackMemory)
 {
     for (const VkResult lack : {VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_OUT_OF_HOST_MEMORY})
@@ -156,6 +156,14 @@ TEST(Device, ThatIsLostDoesNotLackMemory)
         }
 }
 
+TEST(Array, SharesMemoryWithOthersButNoByte)
+{
+    const Device device;
+    std::vector<Array<std::uint32_t>> arrays;
+    const auto values_of = [](std::size_t i) {
+        return std::vector<std::uint32_t>(1 + 97 * i, std::uint32_t(i));
+    };
+    for (std::size_t i = 0; i < 400; ++i) {
         arrays.emplace_back(device, std::span<const std::uint32_t>(values_of(i)));
         if (i % 3 == 2)  // gaps of many sizes to be filled again
             arrays.erase(arrays.begin() + std::ptrdiff_t(arrays.size() / 2));

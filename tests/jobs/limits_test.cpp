@@ -101,8 +101,12 @@ TEST(Error, ThatWasMissedIsAWarning)
 }
 
 constexpr std::uint64_t kMebibyte = 1 << 20;
-const gpu::DeviceInfo kCard{.name = "Card", .type = "discrete", .memory_bytes = 100 * kMebibyte};
-const gpu::DeviceInfo kSoftware{.name = "llvmpipe", .type = "cpu", .memory_bytes = kMebibyte};
+const gpu::DeviceInfo kCard{.name = "Card",
+                            .type = "discrete",
+                            .memory_bytes = 800 * kMebibyte,
+                            .free_bytes = 100 * kMebibyte};
+const gpu::DeviceInfo kSoftware{
+    .name = "llvmpipe", .type = "cpu", .memory_bytes = kMebibyte, .free_bytes = kMebibyte};
 
 /// What is said of a bake of 1024 × 1024 texels that takes `device` and `host` [MiB].
 std::string shortage_of(std::uint64_t device, std::uint64_t host, const MemoryLimits& limits)

@@ -112,7 +112,7 @@ MemoryLimits memory_limits(std::uint64_t max_memory, const gpu::DeviceInfo& devi
     const bool given = max_memory > 0, shared = device.type == "cpu";
     return {.device = given    ? max_memory
                       : shared ? available
-                               : device.memory_bytes,
+                               : device.free_bytes,
             .host = given ? max_memory : available,
             .shared = shared,
             .given = given,
