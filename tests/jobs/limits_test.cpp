@@ -175,5 +175,25 @@ TEST(Memory, ThatIsAllowedBoundsDeviceAndHostEach)
         EXPECT_NE(sentence.find("--max-memory allows 200.0 MiB"), std::string::npos) << sentence;
 }
 
+TEST(Memory, OfSweepsIsWhatTheDeviceHasLeft)
+{
+    const SolveScene prepared(support::source_path("scenes/cornell-box.gltf"), {.size = 64});
+    const BakeOptions options{.solver = {.method = LinksOptions{.rays = Rays::tree}}};
+    const auto limit = [&](const gpu::DeviceInfo& device, std::uint64_t available) {
+        BakeOptions limited = options;
+        limit_links(limited, prepared, memory_limits(0, device, available));
+        return limited.solver.max_device_bytes;
+    };
+    const GraphicsMemory graphics = graphics_memory(prepared, options, kCard);
+    ASSERT_GT(graphics.sweeps, 0u);
+    EXPECT_EQ(limit(kCard, 500 * kMebibyte), kCard.free_bytes - graphics.least());
+    gpu::DeviceInfo full = kCard;
+    full.free_bytes = kMebibyte;
+    EXPECT_EQ(limit(full, 500 * kMebibyte), 1u);
+    // In the host's memory, what most scenes need, or nothing.
+    EXPECT_EQ(limit(kSoftware, 4000 * kMebibyte), graphics.sweeps);
+    EXPECT_EQ(limit(kSoftware, kMebibyte), 1u);
+}
+
 }  // namespace
 }  // namespace lumel
