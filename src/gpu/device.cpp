@@ -238,7 +238,7 @@ void describe_memory(VkPhysicalDevice physical, DeviceInfo& info)
         if (!(heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) || heap.size <= info.memory_bytes)
             continue;
         info.memory_bytes = info.free_bytes = heap.size;
-        if (has_budget)  // of this process, with what it uses
+        if (has_budget)  // a budget includes what this process uses
             info.free_bytes =
                 budget.heapBudget[i] - std::min(budget.heapUsage[i], budget.heapBudget[i]);
     }

@@ -120,7 +120,7 @@ std::uint64_t near_pairs_for(const Scene& scene, const RayScene& rays, const Lum
 std::uint64_t solver_bytes(const SolveSize& size, const SolverOptions& options);
 
 /// Steps until a limit of the options is met or `go_on` returns false. The time limit waits for the
-/// first light. Returns true unless go_on ended it. Then calls release().
+/// first light. Calls release() at the end. Returns true unless go_on ended it.
 bool solve(Solver& solver, const SolverOptions& options,
            const std::function<bool(const SolverState&)>& go_on = {});
 

@@ -14,7 +14,7 @@ namespace lumel {
 
 /// Maximum memory of copied links [bytes].
 struct DeviceLinkLimits {
-    std::uint64_t bytes = 0;                             ///< of all that are added, 0: no limit
+    std::uint64_t bytes = 0;  ///< of the links that a call adds, 0: no limit
     std::uint64_t slab_bytes = std::uint64_t(64) << 20;  ///< of DeviceLinks::Slab::words
 };
 

@@ -51,6 +51,12 @@ protected:
         return from;
     }
 
+    void update(DeviceLinks& copy, const support::TracedScene& traced,
+                const DeviceLinkLimits& limits = {}) const
+    {
+        copy.update(device, {traced.work, traced.parts, traced.numbers}, traced.links, limits);
+    }
+
     SweptLight by_device(const support::TracedScene& traced, DeviceSweeps& sweeps,
                          DeviceLinks& copy, SweptLight from = {}) const
     {
@@ -58,12 +64,6 @@ protected:
         from.swept = traced.solver.solve_on(sweeps, copy, traced.links, traced.source, kResidual,
                                             from.received, from.swept.factor);
         return from;
-    }
-
-    void update(DeviceLinks& copy, const support::TracedScene& traced,
-                const DeviceLinkLimits& limits = {}) const
-    {
-        copy.update(device, {traced.work, traced.parts, traced.numbers}, traced.links, limits);
     }
 
     /// Solves round after round, the later ones from the light of those before.
