@@ -38,10 +38,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     open_libraries(options);
     Stages stages(progress);
     stages.begin("reading");
-    std::optional<WantedDaylight> wanted_daylight;
-    if (!options.daylight.empty())
-        wanted_daylight.emplace(options.daylight);
-    options.atlas.daylit = wanted_daylight.has_value();
+    const std::optional<WantedDaylight> wanted = wanted_daylight(options, stages);
     Scene scene = read_scene(scene_path, method.materials, options.lights);
     // Checks for failures before the long work.
     output.emplace(folder);
@@ -55,8 +52,8 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     const Setting setting(std::move(scene), &device, options, stages);
     if (options.probe_spacing > 0.0)
         check_probe_spacing(options.probe_spacing, setting.prepared);
-    if (wanted_daylight)
-        wanted_daylight->check_memory(setting.prepared, options, limits.host);
+    if (wanted)
+        wanted->check_memory(setting.prepared, options, limits.host);
     limit_links(options, setting.prepared, limits);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =
@@ -84,8 +81,8 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
         stages.tell("the bake was stopped before the maps of lamps were made; --resume makes them");
 
     std::optional<DaylightMaps> daylight;
-    if (wanted_daylight)
-        daylight = make_daylight_maps(*wanted_daylight, setting.prepared, options.atlas,
+    if (wanted)
+        daylight = make_daylight_maps(*wanted, setting.prepared, options.atlas,
                                       std::uint32_t(seed_of(options.solver.method)), stages);
 
     const bool stopped = stages.stopped();
@@ -119,7 +116,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
                                                   .kept(setting.prepared.scene.hash));
     std::vector<std::string> more_files;
     if (daylight)
-        more_files = write_daylight(*output, options, setting.prepared, *wanted_daylight, *daylight,
+        more_files = write_daylight(*output, options, setting.prepared, *wanted, *daylight,
                                     solution->irradiance, stages);
     return write_bake(*output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, more_files, stages);

@@ -141,7 +141,8 @@ void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather&
                     .hours = daylight.year.hours(),
                     .target = options.target,
                     .figures = figures_of(readings)};
-    for (std::string& note : weather_notes(weather, daylight.year, options.occupied))
+    summary.notes.push_back(weather_summary(weather, daylight.year, options.occupied));
+    for (std::string& note : weather_faults(weather))
         summary.notes.push_back(std::move(note));
 }
 
