@@ -353,7 +353,7 @@ LUMEL_API Map cut_page(const Map& map, const Page& page);
 
 /// Status of a bake.
 struct Progress {
-    std::string stage;        ///< "charts", "near field", "solving", …
+    std::string stage;        ///< "charts", "near field", "solving", "lamps", "daylight", …
     double fraction = 0.0;    ///< fraction of the stage, 0…1
     std::uint64_t shots = 0;  ///< shooters so far
     double error = -1.0;      ///< estimated relative error; < 0: unknown
@@ -396,6 +396,9 @@ struct BakeSettings {
     Directional directional = Directional::none;  ///< requires a Device and Parts::all
     bool per_lamp = false;                        ///< fills Baked::lamps; only links
     std::vector<LampGroup> groups;                ///< of lamps that become one map
+    /// An EPW file, a year of hours at one place: fills Baked::daylight. Requires Parts::all and
+    /// OpenBLAS. Empty: none.
+    std::string weather_file;
     std::uint32_t seed = 1;
     // Targets and limits; the first that is reached ends the bake, targets once all are. If none is
     // given, those of `lumel bake`: with links 0.005 of visible noise and an eye_error of 0.05, but
@@ -423,6 +426,33 @@ struct LampMap {
     std::array<double, 3> color{1.0, 1.0, 1.0};
 };
 
+/// Light of sky and sun in one hour, alone; of the sun only after a reflection.
+struct DaylightMap {
+    std::string hour;  ///< "06-21T12": from 12 to 13 o'clock on 21 June, local standard time
+    Map map;
+};
+
+/// An hour with light.
+struct DaylightHour {
+    std::string hour;            ///< as in DaylightMap
+    Vec3 sun{0.0f, 1.0f, 0.0f};  ///< unit direction to the sun in the middle of the hour
+    float lux = 0.0f;            ///< illuminance by direct sun on a plane that faces it [lx]
+    double mean = 0.0;           ///< mean illuminance of all surfaces, without direct sun [lx]
+    double error = 0.0;          ///< estimated, relative to the light of the hour
+    std::vector<float> weights;  ///< [K] of DaylightMaps::maps, signed
+};
+
+/// Daylight over a year, whatever lights the scene has: the light of an hour is the sum of K maps
+/// with its weights. Direct sun is in no map, because a sum of a few maps cannot have its edges:
+/// shade it by `sun` and `lux`.
+struct DaylightMaps {
+    std::string place;                       ///< name in the weather file
+    double latitude = 0.0, longitude = 0.0;  ///< north and east [rad]
+    double error = 0.0;  ///< of the sums, due to their number of maps: RMS over all hours, relative
+    std::vector<DaylightMap> maps;    ///< [K] of the hours that tell most of the others, at most 48
+    std::vector<DaylightHour> hours;  ///< in the order of the calendar
+};
+
 /// A finished bake.
 struct Baked {
     Map map;
@@ -433,6 +463,9 @@ struct Baked {
     /// Light is linear in its lamps: these add up to `map`, and a dimmed or coloured lamp is its
     /// map times a factor per channel. At most 64.
     std::vector<LampMap> lamps;
+    /// With BakeSettings::weather_file; empty if `progress` ended the bake before, and if no
+    /// daylight reaches a surface.
+    std::optional<DaylightMaps> daylight;
     std::vector<Surface> surfaces;  ///< by instance, then primitive, then side
     std::vector<Page> pages;        ///< pages of the map, at least one
     float texels_per_metre = 0.0f;
@@ -454,8 +487,9 @@ struct Baked {
 
 /// Builds the atlas and solves for the light; returns the same map as `lumel bake` writes on the
 /// same device. Throws Error{input} if a setting is out of range, no limit ends the bake, no
-/// surface can be lit, or a method lacks its library (OpenBLAS for "matrix"); Error{device}, also
-/// if memory does not suffice: the Device remains usable if that is known before the solve.
+/// surface can be lit, the weather file cannot be used, or OpenBLAS is missing that method "matrix"
+/// and daylight need; Error{device}, also if memory does not suffice: the Device remains usable if
+/// that is known before the solve.
 LUMEL_API Baked bake(const Device& device, const Scene& scene, const BakeSettings& settings = {},
                      const ProgressFunction& progress = {});
 /// Bakes on the CPU, without Vulkan. Throws Error{input} also for methods other than "links", for

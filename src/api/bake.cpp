@@ -13,6 +13,7 @@
 #include "base/core/log.h"
 #include "jobs/bake/advice.h"
 #include "jobs/bake/bake.h"
+#include "jobs/bake/daylight.h"
 #include "jobs/bake/directional_layers.h"
 #include "jobs/bake/lamp_maps.h"
 #include "jobs/solve/lighting.h"
@@ -27,6 +28,17 @@ namespace {
 [[noreturn]] void refuse_setting(const std::string& setting, const std::string& what)
 {
     throw lumel::Error(lumel::ErrorKind::input, "BakeSettings::" + setting, what);
+}
+
+/// Runs work(); what it refuses names the setting, too.
+template <class Work>
+auto refused_by(const std::string& setting, const Work& work)
+{
+    try {
+        return work();
+    } catch (const lumel::Error& error) {
+        throw lumel::Error(error.kind(), "BakeSettings::" + setting, error.what());
+    }
 }
 
 lumel::Parts parts_of(Parts parts)
@@ -89,6 +101,7 @@ BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
     BakeOptions options;
     options.parts = parts_of(settings.parts);
     options.directional = directional_of(settings.directional);
+    options.daylight = settings.weather_file;
     check_parts(options);
     options.solver = limits_of(settings);
     std::vector<lumel::LampGroup> groups;
@@ -103,7 +116,8 @@ BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
     if (!solver.has_target() && solver.max_seconds == 0.0 && solver.max_shots == 0 && !has_progress)
         refuse_setting("error", "nothing would end the bake: set an error, seconds or shots");
     check_limits(solver);
-    open_libraries(options);
+    refused_by(options.daylight.empty() ? "method" : "weather_file",
+               [&] { open_libraries(options); });
     return options;
 }
 
@@ -179,6 +193,36 @@ std::vector<LampMap> maps_of_lamps(const BakedSolution& baked, Solver& solver, S
     return lamps;
 }
 
+std::optional<DaylightMaps> maps_of_daylight(const BakedSolution& baked,
+                                             const WantedDaylight& wanted,
+                                             const BakeOptions& options, Stages& stages)
+{
+    const SolveScene& prepared = baked.setting.prepared;
+    const std::optional<lumel::DaylightMaps> found =
+        make_daylight_maps(wanted, prepared, options.atlas, baked.seed, stages);
+    if (!found)
+        return std::nullopt;
+    const Weather& weather = wanted.weather();
+    DaylightMaps daylight{.place = weather.city,
+                          .latitude = weather.latitude,
+                          .longitude = weather.longitude,
+                          .error = found->error,
+                          .maps = {},
+                          .hours = {}};
+    std::vector<Image> images = finish_daylight(prepared, *found, baked.irradiance);
+    for (std::size_t k = 0; k < images.size(); ++k)
+        daylight.maps.push_back(
+            {.hour = wanted.name(found->hours[k]), .map = map_of(std::move(images[k]))});
+    for (const HourOfDaylight& hour : hours_with_light(wanted, *found))
+        daylight.hours.push_back({.hour = hour.name,
+                                  .sun = {hour.sun.x, hour.sun.y, hour.sun.z},
+                                  .lux = hour.lux,
+                                  .mean = hour.mean,
+                                  .error = hour.error,
+                                  .weights = {hour.weights.begin(), hour.weights.end()}});
+    return daylight;
+}
+
 /// Frees what only the solver needed.
 void reduce(Setting& setting)
 {
@@ -198,6 +242,8 @@ Baked baked_scene(const gpu::Device* device, const SceneImpl& given, BakeOptions
                   const lumel::ProgressFunction& progress)
 {
     Stages stages(progress);
+    const std::optional<WantedDaylight> wanted =
+        refused_by("weather_file", [&] { return wanted_daylight(options, stages); });
     lumel::Scene scene = given.scene;
     warn_if_dark(scene);
     const MemoryLimits limits = memory_limits(options, device);
@@ -205,6 +251,8 @@ Baked baked_scene(const gpu::Device* device, const SceneImpl& given, BakeOptions
     const auto kept =
         std::make_shared<BakedSolution>(std::move(scene), given.document, device, options, stages);
     const SolveScene& prepared = kept->setting.prepared;
+    if (wanted)
+        wanted->check_memory(prepared, options, limits.host);
     limit_links(options, prepared, limits);
     std::unique_ptr<Solution> solution =
         keeps_sources_apart(options) ? solve_sources(*device, kept->setting, options, stages)
@@ -216,7 +264,6 @@ Baked baked_scene(const gpu::Device* device, const SceneImpl& given, BakeOptions
     Baked baked;
     baked.map = finished_map(device, *kept, options, solved.shots, stages, baked.directional);
     baked.lamps = maps_of_lamps(*kept, *solution->solver, stages);
-    baked.interrupted = stages.stopped();
     baked.surfaces = surfaces_of(prepared.scene, prepared.atlas);
     baked.pages = pages_of(prepared.atlas);
     baked.texels_per_metre = prepared.atlas.texels_per_metre;
@@ -230,6 +277,9 @@ Baked baked_scene(const gpu::Device* device, const SceneImpl& given, BakeOptions
     baked.relightable = kept->light.has_value();
     solution.reset();
     reduce(kept->setting);
+    if (wanted)
+        baked.daylight = maps_of_daylight(*kept, *wanted, options, stages);
+    baked.interrupted = stages.stopped();
     baked.solution = kept;
     if (device)
         device->check_validation();

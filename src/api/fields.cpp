@@ -14,6 +14,7 @@ namespace {
 const std::map<std::string, std::string, std::less<>> kFields = {
     {"coarse-afar", "AtlasSettings::coarse_afar"},
     {"dark-error", "BakeSettings::dark_error"},
+    {"daylight", "BakeSettings::weather_file"},
     {"density", "AtlasSettings::densities"},
     {"device", "Device::Device"},
     {"directional", "BakeSettings::directional"},

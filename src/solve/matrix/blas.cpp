@@ -31,9 +31,8 @@ void* open_library()
     if (!library)
         throw Error(
             ErrorKind::input, kLibrary,
-            std::string(
-                "cannot be loaded; --solver matrix and --daylight need OpenBLAS (Debian package "
-                "libopenblas0-pthread): ") +
+            std::string("cannot be loaded; the matrix method and daylight need OpenBLAS (Debian "
+                        "package libopenblas0-pthread): ") +
                 dlerror());
     return library;
 }
