@@ -25,9 +25,14 @@ void rethrow_at(const std::string& place, py::error_already_set& error)
     throw py::error_already_set();
 }
 
-std::string path_of(const py::object& path)
+std::string path_of(const Argument& from)
 {
-    return value_of<std::string>({py::module_::import("os").attr("fspath")(path), "path"});
+    try {
+        return value_of<std::string>(
+            {py::module_::import("os").attr("fspath")(from.value), from.place});
+    } catch (py::error_already_set& error) {
+        rethrow_at(from.place, error);
+    }
 }
 
 }  // namespace lumel_python

@@ -101,6 +101,10 @@ Value word_of(const Argument& from, std::initializer_list<std::pair<const char*,
 }
 
 /// The path of a str or an os.PathLike.
-std::string path_of(const py::object& path);
+std::string path_of(const Argument& from);
+inline std::string path_of(const py::object& path)
+{
+    return path_of(Argument{path, "path"});
+}
 
 }  // namespace lumel_python

@@ -123,6 +123,13 @@ py::dict lamps_of(const py::object& self)
     return maps;
 }
 
+py::object daylight_of(const py::object& self)
+{
+    const auto& daylight = self.cast<const lumel::Baked&>().daylight;
+    return daylight ? py::cast(&*daylight, py::return_value_policy::reference_internal, self)
+                    : py::none();
+}
+
 py::list directional_of(const py::object& self)
 {
     py::list maps;
@@ -150,6 +157,7 @@ void add_baked(py::module_& module)
                                "4 or 9 maps of coefficients of the incoming radiance [cd/m²].")
         .def_property_readonly("lamps", &lamps_of,
                                "Maps of single lamps and groups by name, which add up to the map.")
+        .def_property_readonly("daylight", &daylight_of, "With weather_file; else None.")
         .def_readonly("surfaces", &Baked::surfaces)
         .def_property_readonly("pages", &pages_of, "Left, top and side [texels] of each.")
         .def_readonly("texels_per_metre", &Baked::texels_per_metre)

@@ -15,6 +15,7 @@ PYBIND11_MODULE(_core, module)
                                  std::to_string(version % 100);
     lumel_python::add_calls(module);
     lumel_python::add_scene(module);
+    lumel_python::add_daylight_maps(module);
     lumel_python::add_bake(module);
     lumel_python::add_live_scene(module);
     lumel_python::add_live_links(module);

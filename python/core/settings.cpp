@@ -102,6 +102,8 @@ lumel::BakeSettings bake_settings(const py::kwargs& given)
     take_entries<std::string>(settings, "groups", [&](std::string name, std::string pattern) {
         bake.groups.push_back({std::move(name), std::move(pattern)});
     });
+    if (const Argument file = removed(settings, "weather_file"); !file.value.is_none())
+        bake.weather_file = path_of(file);
     take(settings, "seed", bake.seed);
     take(settings, "error", bake.error);
     take(settings, "dark_error", bake.dark_error);

@@ -10,12 +10,12 @@ Units are metres, radians, lx, cd/m² and cd; +y is up; colours are linear Rec. 
 """
 
 from ._core import (
-    Baked, Device, DeviceInfo, Error, LiveLinks, LiveLinksState, LiveScene, LiveState, LumelWarning, Progress,
-    Relight, Scene, Surface, __version__, bake, list_devices, probes, write_baked_scene, write_scene)
+    Baked, DaylightHour, DaylightMaps, Device, DeviceInfo, Error, LiveLinks, LiveLinksState, LiveScene, LiveState,
+    LumelWarning, Progress, Relight, Scene, Surface, __version__, bake, list_devices, probes, write_baked_scene, write_scene)
 from .content import NONE, Instance, Light, Material, Mesh, Primitive
 from .pages import cut_page
 
 __all__ = [
-    "NONE", "Baked", "Device", "DeviceInfo", "Error", "Instance", "Light", "LiveLinks", "LiveLinksState", "LiveScene",
-    "LiveState", "LumelWarning", "Material", "Mesh", "Primitive", "Progress", "Relight", "Scene", "Surface",
+    "NONE", "Baked", "DaylightHour", "DaylightMaps", "Device", "DeviceInfo", "Error", "Instance", "Light", "LiveLinks",
+    "LiveLinksState", "LiveScene", "LiveState", "LumelWarning", "Material", "Mesh", "Primitive", "Progress", "Relight", "Scene", "Surface",
     "__version__", "bake", "cut_page", "list_devices", "probes", "write_baked_scene", "write_scene"]

@@ -139,6 +139,51 @@ class Surface:
     def page(self) -> NDArray[np.uint16]:
         """(V,) index into the pages; empty if there is one page."""
 
+class DaylightHour:
+    """An hour of the year with light. Arrays are views of the bake's memory, which they keep alive."""
+
+    @property
+    def hour(self) -> str:
+        """"06-21T12": from 12 to 13 o'clock on 21 June, local standard time."""
+    @property
+    def sun(self) -> _Floats:
+        """(3,) unit direction to the sun in the middle of the hour."""
+    @property
+    def lux(self) -> float:
+        """Illuminance by direct sun on a plane that faces it [lx]."""
+    @property
+    def mean(self) -> float:
+        """Mean illuminance of all surfaces, without direct sun [lx]."""
+    @property
+    def error(self) -> float:
+        """Estimated, relative to the light of the hour."""
+    @property
+    def weights(self) -> _Floats:
+        """(K,) of DaylightMaps.maps, signed: their sum is the light of the hour without direct sun."""
+
+class DaylightMaps:
+    """Daylight over a year, whatever lights the scene has, as K maps. Direct sun is in none of them. Arrays are views of
+    the bake's memory, which they keep alive."""
+
+    @property
+    def place(self) -> str:
+        """Name in the weather file."""
+    @property
+    def latitude(self) -> float:
+        """North, in radians."""
+    @property
+    def longitude(self) -> float:
+        """East, in radians."""
+    @property
+    def error(self) -> float:
+        """Of the sums, due to their number of maps: RMS over all hours, relative."""
+    @property
+    def maps(self) -> dict[str, _Floats]:
+        """(height, width, 4), as Baked.map, by their hours, in the order of the weights."""
+    @property
+    def hours(self) -> dict[str, DaylightHour]:
+        """Those with light, by their names, in the order of the calendar; a new dictionary."""
+
 class Baked:
     """A finished bake. Arrays are views of its memory, which they keep alive."""
 
@@ -151,6 +196,9 @@ class Baked:
     @property
     def lamps(self) -> dict[str, _Floats]:
         """With per_lamp: maps of single lamps and groups by name, which add up to the map."""
+    @property
+    def daylight(self) -> Optional[DaylightMaps]:
+        """With weather_file. None also if progress ended the bake before, or no daylight reaches a surface."""
     @property
     def surfaces(self) -> list[Surface]: ...
     @property
@@ -185,7 +233,7 @@ def bake(scene: Scene, *, device: Optional[Device] = None, progress: Optional[Ca
          method: Optional[str] = None, options: Optional[Mapping[str, str]] = None,
          parts: Optional[Literal["all", "direct", "indirect"]] = None,
          directional: Optional[Literal["none", "sh1", "sh2"]] = None, per_lamp: Optional[bool] = None,
-         groups: Optional[Mapping[str, str]] = None, seed: Optional[int] = None,
+         groups: Optional[Mapping[str, str]] = None, weather_file: Optional[_Path] = None, seed: Optional[int] = None,
          error: Optional[float] = None, dark_error: Optional[float] = None, eye_error: Optional[float] = None,
          visible_noise: Optional[float] = None, seconds: Optional[float] = None, shots: Optional[int] = None,
          max_memory: Optional[int] = None) -> Baked:
@@ -194,7 +242,7 @@ def bake(scene: Scene, *, device: Optional[Device] = None, progress: Optional[Ca
     progress: called often; returning False ends the bake with the best light so far, other values are ignored. Settings
     are those of BakeSettings and AtlasSettings in lumel.h; None stands for the default. densities: texels per metre by
     names of nodes, meshes or materials, with shell wildcards; the last match applies. groups: patterns of lamps by the
-    name of their group.
+    name of their group. weather_file: an EPW file, for Baked.daylight.
     """
 
 def probes(baked: Baked, places: ArrayLike, *,

@@ -1,5 +1,6 @@
 """Tests of the Python package; LUMEL: the program, SCENES: the folder of scenes."""
 
+import json
 import os
 import pathlib
 import signal
@@ -53,6 +54,28 @@ def above(height: float, x: float = 0.0) -> Any:
 def coarse(scene: lumel.Scene, **settings: Any) -> lumel.Baked:
     given: dict[str, Any] = {"size": 32, "error": 0.05, **settings}
     return lumel.bake(scene, **given)
+
+
+def weather_of_a_day(hour: int) -> tuple[float, float]:
+    """Radiation of sun and sky [W/m²], from 10 to 14 o'clock; 100 and 120 lm/W of it."""
+    return (10.0 * hour, 200.0 - hour) if 10 <= hour < 14 else (0.0, 0.0)
+
+
+def weather_file(folder: str) -> pathlib.Path:
+    """An EPW file with light on the 15th of each month."""
+    text = "LOCATION,Test,-,-,made,0,47.5,19,1,100\n" + "\n".join(
+        ("DESIGN CONDITIONS,0", "TYPICAL/EXTREME PERIODS,0", "GROUND TEMPERATURES,0",
+         "HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0", "COMMENTS 1,", "COMMENTS 2,",
+         "DATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n"))
+    for month, days in enumerate((31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31), 1):
+        for day in range(1, days + 1):
+            for hour in range(24):
+                sun, sky = weather_of_a_day(hour) if day == 15 else (0.0, 0.0)
+                text += (f"2001,{month},{day},{hour + 1},0,?9,15,10,70,101325,0,0,300,0,{sun},{sky},0,{100 * sun},"
+                         f"{120 * sky},0,180,3,5,5,20,77777,9,999999999,200,0.1,0,88,0.2,0,0\n")
+    path = pathlib.Path(folder) / "made.epw"
+    path.write_text(text)
+    return path
 
 
 def in_the_middle(scene: lumel.Scene) -> float:
@@ -306,6 +329,83 @@ class Bakes(unittest.TestCase):
             ticks += 1
             time.sleep(0.001)
         self.assertGreater(during[0], 10)
+
+
+class Daylight(unittest.TestCase):
+    def test_an_hour_is_a_sum_of_maps(self) -> None:
+        """The light of black open ground is that of the sky in the weather file."""
+        with tempfile.TemporaryDirectory() as folder:
+            daylight = coarse(ground(), size=16, sides="front", weather_file=weather_file(folder)).daylight
+        assert daylight
+        self.assertEqual(daylight.place, "Test")
+        self.assertAlmostEqual(np.degrees(daylight.latitude), 47.5, places=5)
+        maps, hours = daylight.maps, daylight.hours
+        self.assertEqual(list(hours)[:5], ["01-15T10", "01-15T11", "01-15T12", "01-15T13", "02-15T10"])
+        self.assertEqual(len(hours), 4 * 12)
+        for name, hour in hours.items():
+            sun, sky = weather_of_a_day(int(name[-2:]))
+            self.assertEqual(hour.hour, name)
+            self.assertEqual(hour.lux, 100 * sun)
+            self.assertAlmostEqual(float(np.linalg.norm(hour.sun)), 1, places=5)
+            self.assertGreater(hour.sun[1], 0)
+            light = sum(weight * one[8, 8, 1] for weight, one in zip(hour.weights, maps.values()))
+            self.assertAlmostEqual(light / (120 * sky), 1, delta=0.04)
+            self.assertAlmostEqual(hour.mean / (120 * sky), 1, delta=0.02)
+
+    def test_the_file_of_the_program(self) -> None:
+        """Weights and hours are those of `lumel bake`; arrays keep their memory alive."""
+        with tempfile.TemporaryDirectory() as folder:
+            weather = weather_file(folder)
+            subprocess.run([os.environ["LUMEL"], "bake", CORNELL_BOX, folder, "--size", "32", "--rays", "host",
+                            "--links", "12", "--preview-width", "0", "--quiet", "--daylight", weather], check=True,
+                           stdout=subprocess.DEVNULL)
+            written = json.loads((pathlib.Path(folder) / "daylight.json").read_text())
+            stages = set()
+            baked = lumel.bake(lumel.Scene.load(CORNELL_BOX), size=32, shots=12, weather_file=str(weather),
+                               progress=lambda now: stages.add(now.stage))
+        self.assertIn("daylight", stages)
+        daylight = baked.daylight
+        assert daylight
+        self.assertEqual(list(daylight.maps), [one["hour"] for one in written["maps"]])
+        self.assertEqual(list(daylight.hours), [one["hour"] for one in written["hours"]])
+        for hour, row in zip(daylight.hours.values(), written["hours"]):
+            pairs: list[tuple[Any, Any]] = [
+                (hour.weights, row["weights"]), (hour.sun, row["sun"]), (hour.lux, row["lux"]),
+                (hour.mean, row["mean"]), (hour.error, row["error"])]
+            for found, expected in pairs:
+                np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-6)
+        one, weights = next(iter(daylight.maps.values())), hour.weights
+        self.assertEqual(one.shape, baked.map.shape)
+        sums = one.sum(), weights.sum()
+        del baked, daylight, hour
+        coarse(cube(glowing(0.1)))  # would take the memory
+        self.assertEqual((one.sum(), weights.sum()), sums)
+
+    def test_refusals(self) -> None:
+        scene = cube(glowing(0.5))
+        self.assertIsNone(coarse(scene).daylight)
+        with self.assertRaisesRegex(lumel.Error, r"^weather_file: no\.epw: ") as raised:
+            coarse(scene, weather_file="no.epw")
+        self.assertEqual(raised.exception.kind, "input")
+        with tempfile.TemporaryDirectory() as folder:
+            weather = weather_file(folder)
+            with self.assertRaisesRegex(lumel.Error, "^weather_file with parts: is not possible"):
+                coarse(scene, weather_file=weather, parts="direct")
+            with self.assertWarnsRegex(lumel.LumelWarning, "no daylight reaches any surface"):
+                self.assertIsNone(coarse(scene, weather_file=weather).daylight)
+            wrong: Any = 5
+            with self.assertRaisesRegex(TypeError, "^weather_file: expected str.*not int"):
+                coarse(scene, weather_file=wrong)
+
+    def test_interrupt(self) -> None:
+        """Ctrl-C ends a bake while its maps of daylight are made."""
+        def interrupt(now: lumel.Progress) -> None:
+            if now.stage == "daylight" and 0 < now.fraction < 1:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(KeyboardInterrupt):
+                coarse(lumel.Scene.load(CORNELL_BOX), weather_file=weather_file(folder), progress=interrupt)
 
 
 class Live(unittest.TestCase):
