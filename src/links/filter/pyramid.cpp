@@ -9,9 +9,9 @@ namespace {
 
 constexpr std::array<float, 4> kCautionIndirect = {0.5f, 0.5f, 0.5f, 0.5f};
 constexpr std::array<float, 2> kCautionDirect = {1.0f, 0.5f};
-/// Maximum amplitude of details, relative to (deviation of the fit / R)² × the light: second order
-/// in the distance R of what sends it [WH92].
-constexpr float kMostDetail = 4.0f;
+/// Bounds on the amplitude of details, relative to (deviation of the fit / R)² × the light: second
+/// order in the distance R of what sends it [WH92].
+constexpr float kLeastDetail = 0.02f, kMostDetail = 4.0f;
 constexpr float kUnbounded = std::numeric_limits<float>::max();
 /// Deviation of the window over which gains are averaged [cells]; of the finest level.
 constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
@@ -110,9 +110,10 @@ float wiener(float signal, float noise)
 float gain_of(const Moments& sums, const Moments& next, const PyramidRule& rule, float caution)
 {
     const Moments here = next.count > 0.0f ? next * (sums.count / next.count) : sums;
-    const float most = rule.is_bounded ? kMostDetail * kMostDetail * sums.bound : kUnbounded;
+    const float most = rule.is_bounded ? kMostDetail * kMostDetail * sums.bound : kUnbounded,
+                least = rule.is_bounded ? kLeastDetail * kLeastDetail * sums.bound : 0.0f;
     const float local = std::clamp(here.signal - kLocalCaution * here.noise(), 0.0f, most),
-                wide = std::clamp(sums.signal - caution * sums.noise(), 0.0f, most);
+                wide = std::clamp(sums.signal - caution * sums.noise(), least, most);
     return rule.has_local_noise ? wiener(std::max(wide, local), here.noise())
                                 : std::max(wiener(wide, sums.noise()), wiener(local, here.noise()));
 }
