@@ -31,6 +31,15 @@ constexpr float kMinOpen = 0.1f;
 /// A surface closer than this above a lumel, relative to its size, lies on it.
 constexpr float kContact = 0.01f;
 
+/// Rays that hit backs nearby, relative to the number of points, from which on fronts are doubted.
+constexpr double kManyBacks = 2.0;
+/// Directions at most along which a point that is shut in sees fronts.
+constexpr int kFewFronts = 2;
+/// Walks in closed geometry: maximum length of their rays, relative to the lumel's size, and most
+/// reflections.
+constexpr float kFar = 16.0f;
+constexpr std::uint32_t kMostReflections = 16;
+
 /// Bit k: direction k.
 using Directions = std::uint32_t;
 constexpr Directions kAllDirections = (1u << kDirections) - 1;
@@ -39,11 +48,12 @@ constexpr Directions kAllDirections = (1u << kDirections) - 1;
 /// one direction together. Tries the last successful direction first.
 class HiddenPoints {
 public:
-    /// tried: directions of rays.
-    HiddenPoints(const LumelsInScene& look, std::size_t i, Directions tried)
+    /// tried: directions of rays. is_near_back: if rays of the lumel are known to hit backs nearby.
+    HiddenPoints(const LumelsInScene& look, std::size_t i, Directions tried, bool is_near_back)
         : look_(look),
           lumel_(i),
-          tried_(tried)
+          tried_(tried),
+          is_near_back_(is_near_back)
     {
     }
 
@@ -53,6 +63,23 @@ public:
         std::fill(hidden.begin(), hidden.end(), true);
         left_.resize(points.size());
         std::iota(left_.begin(), left_.end(), 0u);
+        backs_ = 0;
+        find_open(points, hidden);
+        is_near_back_ = is_near_back_ || double(backs_) >= kManyBacks * double(points.size());
+        if (is_near_back_)
+            find_shut_in(points, hidden);
+        in_doubt_.clear();
+    }
+
+    /// Directions by which points were first found open.
+    Directions successful() const { return successful_; }
+    /// True if many rays have hit backs nearby.
+    bool is_near_back() const { return is_near_back_; }
+
+private:
+    /// Among left_, which then are those that are still hidden.
+    void find_open(std::span<const LumelPoint> points, std::span<bool> hidden)
+    {
         const std::uint32_t first = last_;
         for (std::uint32_t k = 0; k < kDirections && !left_.empty(); ++k) {
             const std::uint32_t direction = k == 0 ? first : k <= first ? k - 1 : k;
@@ -60,19 +87,36 @@ public:
                 continue;
             cast(points, direction);
             for (std::size_t r = 0; r < left_.size(); ++r)
-                if (!is_shut_in(points[left_[r]].normal, rays_[r], hits_[r])) {
+                if (is_open(points[left_[r]].normal, rays_[r], hits_[r])) {
                     hidden[left_[r]] = false;
                     last_ = direction;
                     successful_ |= 1u << direction;
+                    if (is_near(hits_[r]))
+                        in_doubt_.push_back(left_[r]);
                 }
             std::erase_if(left_, [&](std::uint32_t p) { return !hidden[p]; });
         }
     }
 
-    /// Directions by which points were first found open.
-    Directions successful() const { return successful_; }
+    /// Hides points that are open by few fronts nearby, which are shut in themselves.
+    void find_shut_in(std::span<const LumelPoint> points, std::span<bool> hidden)
+    {
+        left_ = in_doubt_;
+        std::vector<int> fronts(points.size(), 0);
+        for (std::uint32_t direction = 0; direction < kDirections && !left_.empty(); ++direction) {
+            cast(points, direction);
+            for (std::size_t r = 0; r < left_.size(); ++r) {
+                int& count = fronts[left_[r]];
+                if (is_open(points[left_[r]].normal, rays_[r], hits_[r]) &&
+                    (++count > kFewFronts || !ends_at_back(direction, rays_[r], hits_[r])))
+                    count = kFewFronts + 1;
+            }
+            std::erase_if(left_, [&](std::uint32_t p) { return fronts[p] > kFewFronts; });
+        }
+        for (const std::uint32_t p : left_)
+            hidden[p] = true;
+    }
 
-private:
     /// Casts rays from points that are hidden so far.
     void cast(std::span<const LumelPoint> points, std::uint32_t direction)
     {
@@ -92,22 +136,57 @@ private:
         look_.rays.closest(rays_, hits_);
     }
 
-    bool is_shut_in(const glm::vec3& normal, const RaySpan& ray, const RayHit& hit) const
+    bool is_back(const RayHit& hit) const
+    {
+        return !hit.front && !is_double_sided(look_.scene, hit);
+    }
+
+    bool is_near(const RayHit& hit) const
+    {
+        return hit.distance <= kFar * look_.world[lumel_].size;
+    }
+
+    /// True if a walk of diffuse reflections from a hit ends at the back of a surface.
+    bool ends_at_back(std::uint32_t direction, RaySpan ray, RayHit hit) const
+    {
+        for (std::uint32_t n = 0; n < kMostReflections; ++n) {
+            if (!is_near(hit))
+                return false;
+            const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
+            const glm::vec3 from =
+                ray.origin + hit.distance * ray.direction + hit.ray_offset * normal;
+            const glm::vec2 st = sobol_pair(direction, hash_two(std::uint32_t(lumel_), 2 + n));
+            ray = ray_out(from, direction_about(normal, st), kBlendSeed);
+            if (!look_.rays.closest(ray, hit))
+                return false;
+            if (is_back(hit))
+                return true;
+        }
+        return false;
+    }
+
+    bool is_open(const glm::vec3& normal, const RaySpan& ray, const RayHit& hit)
     {
         if (std::isinf(hit.distance))
-            return false;
-        if (!hit.front && !is_double_sided(look_.scene, hit))
             return true;
-        return hit.distance * glm::dot(ray.direction, normal) < kContact * look_.world[lumel_].size;
+        if (is_back(hit)) {
+            backs_ += is_near(hit) ? 1 : 0;
+            return false;
+        }
+        return hit.distance * glm::dot(ray.direction, normal) >=
+               kContact * look_.world[lumel_].size;
     }
 
     const LumelsInScene& look_;
     std::size_t lumel_;
     Directions tried_, successful_ = 0;
+    bool is_near_back_;
+    std::size_t backs_ = 0;  ///< nearby that rays hit, until all points were open or hidden
     std::uint32_t last_ = 0;
-    std::vector<std::uint32_t> left_;  ///< points that are hidden so far
-    std::vector<RaySpan> rays_;        ///< [left_]
-    std::vector<RayHit> hits_;         ///< [left_]
+    std::vector<std::uint32_t> left_;      ///< points that are hidden so far
+    std::vector<RaySpan> rays_;            ///< [left_]
+    std::vector<RayHit> hits_;             ///< [left_]
+    std::vector<std::uint32_t> in_doubt_;  ///< points that are open by a front nearby
 };
 
 enum class Openness { open, partly, hidden };
@@ -115,6 +194,7 @@ enum class Openness { open, partly, hidden };
 struct FirstLook {
     Openness openness;
     Directions successful;  ///< of rays from its points
+    bool is_near_back;      ///< one of them hit a back
 };
 
 LumelPoint point_of(const Piece& piece, const glm::vec2& uv)
@@ -140,13 +220,13 @@ FirstLook first_look(const LumelsInScene& look, std::size_t i)
               glm::vec2(piece.parallelogram ? 1.0f - kFromEdges : 0.5f - kFromEdges)})
             points[count++] = point_of(piece, uv);
     const std::span tested = std::span(hidden).first(count);
-    HiddenPoints are_hidden(look, i, kAllDirections);
+    HiddenPoints are_hidden(look, i, kAllDirections, false);
     are_hidden(std::span(points).first(count), tested);
     const auto hides = std::size_t(std::ranges::count(tested, true));
     return {hides == 0       ? Openness::open
             : hides == count ? Openness::hidden
                              : Openness::partly,
-            are_hidden.successful()};
+            are_hidden.successful(), are_hidden.is_near_back()};
 }
 
 /// A batch of points of a lumel to test, with the addresses of their results.
@@ -355,8 +435,8 @@ struct OpenPart {
     float share;
 };
 
-/// tried: directions of rays. Those that opened no point of the first look rarely open others.
-OpenPart find_open_part(const LumelsInScene& look, std::size_t i, Directions tried)
+/// first: of its points; directions that opened none of them rarely open others.
+OpenPart find_open_part(const LumelsInScene& look, std::size_t i, const FirstLook& first)
 {
     const Lumel& lumel = look.lumels.lumels[i];
     OpenPart part{i, {}, 0.0f};
@@ -368,7 +448,7 @@ OpenPart find_open_part(const LumelsInScene& look, std::size_t i, Directions tri
         whole += local_area(look.lumels.pieces[lumel.first_piece + k]);
         strips.emplace_back(look, i, k, side);
     }
-    HiddenPoints are_hidden(look, i, tried);
+    HiddenPoints are_hidden(look, i, first.successful, first.is_near_back);
     PointTests tests;
     const auto test = [&](void (Strips::*add)(PointTests&)) {
         for (Strips& one : strips)
@@ -426,7 +506,7 @@ std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels&
                     continue;
                 const FirstLook first = first_look(look, i);
                 if (first.openness == Openness::partly)
-                    parts[i] = find_open_part(look, i, first.successful);
+                    parts[i] = find_open_part(look, i, first);
                 else if (first.openness == Openness::hidden)
                     parts[i].share = 0.0f;
             }

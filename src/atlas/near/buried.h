@@ -17,6 +17,10 @@ namespace lumel {
 /// is open if one ray escapes, or hits a front or a double-sided surface farther away. So the dark
 /// inside of a sealed box is not buried.
 ///
+/// Where many rays of a lumel hit backs nearby, a point is hidden too if few of its rays hit
+/// fronts, nearby, and diffuse reflections from these end at a back: wall and floor behind a
+/// skirting board without a back of its own are fronts, but are shut in with it.
+///
 /// Returns the open share of each lumel's area [N], 0 if buried. chosen [N]: changes only these
 /// lumels and returns 1 for the others; empty: all.
 std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels,

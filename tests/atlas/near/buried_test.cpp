@@ -1,5 +1,6 @@
 // Which lumels lie under or inside other geometry.
 
+#include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -118,6 +119,32 @@ TEST(Buried, AWallInsideAWallIs)
     EXPECT_TRUE(result[0]);
     for (std::size_t i = 1; i < result.size(); ++i)
         EXPECT_FALSE(result[i]) << i;
+}
+
+/// It has a front, a top and ends, but neither back nor bottom: wall and floor in it face each
+/// other. The lowest row, which sees much of the floor, is not seen from the room.
+TEST(Buried, AWallBehindASkirtingBoardIs)
+{
+    constexpr int kColumns = 32, kRows = 8;
+    constexpr float kWidth = 8.0f, kRow = 0.25f, kTop = 0.6f, kThick = 0.1f;
+    Quad wall, floor;
+    wall.edge_u = {kWidth, 0, 0};
+    wall.edge_v = {0, kRow * kRows, 0};
+    wall.res_u = kColumns;
+    wall.res_v = kRows;
+    floor.edge_u = {0, 0, kWidth};
+    floor.edge_v = {kWidth, 0, 0};
+    std::vector<Quad> quads{wall, floor};
+    const auto sides = box_walls({0, 0, 0}, {kWidth, kTop, kThick}, false, {});
+    for (const std::size_t side : {0u, 1u, 3u, 5u})
+        quads.push_back(sides[side]);
+    HandMade made = make_quads(quads);
+    const std::vector<float> open = mark_buried(made.scene, RayScene(made.scene), made.lumels);
+    for (int row = 1; row < kRows; ++row)
+        for (int column = 0; column < kColumns; ++column)
+            EXPECT_NEAR(open[std::size_t(kColumns * row + column)],
+                        std::clamp((float(row + 1) * kRow - kTop) / kRow, 0.0f, 1.0f), 0.04f)
+                << row << " " << column;
 }
 
 TEST(Buried, TheBottomOfAThinSlitIsNot)
