@@ -140,27 +140,15 @@ glm::vec3 LinkRadiosity::arrived(std::size_t i) const
     return mean_.light.empty() ? direct : direct + mean_.light[i];
 }
 
-/// The square of one lumel is a rough estimate, so that of its neighbours counts too. The filter's
-/// bias is known for all of them together only, and is shared out in proportion to their noise.
+/// The square of one lumel is a rough estimate, so that of its neighbours counts too.
 std::vector<float> LinkRadiosity::error_estimate() const
 {
     std::vector<float> error(work_.lumels().size(), 1.0f);
     if (mean_.light.empty())
         return error;
     const auto deviation = [&](const Mean& of, int reach) {
-        SquaredError all;
-        double noise = 0.0;
-        for (std::size_t i = 0; i < error.size(); ++i)
-            if (!work_.is_buried(i)) {
-                all.add(of, i);
-                noise += double(of.noise[i]);
-            }
-        std::vector<double> found = deviation_nearby({of.noise.begin(), of.noise.end()},
-                                                     work_.scene.lumels, work_.order, reach, 1.0);
-        const double scale = noise > 0.0 ? std::sqrt(all.sum() / noise) : 1.0;
-        for (double& one : found)
-            one *= scale;
-        return found;
+        return deviation_nearby({of.noise.begin(), of.noise.end()}, work_.scene.lumels, work_.order,
+                                reach, 1.0);
     };
     const std::vector<double> of_rays = deviation(mean_, kIndirectReach);
     std::vector<double> of_direct(error.size(), 0.0);

@@ -74,8 +74,8 @@ public:
     SolverState state() const override { return state_; }
     void release() override;
     std::vector<glm::vec3> irradiance() override;
-    /// [N] Estimated error of each lumel relative to its light, 0…1; 1 before the first round has
-    /// ended, 0 for buried lumels.
+    /// [N] Estimated error of each lumel relative to its light, 0…1, without the filter's bias; 1
+    /// before the first round has ended, 0 for buried lumels.
     std::vector<float> error_estimate() const override;
     std::vector<NoisySurface> noisy_surfaces() const override;
     const gpu::StageTimes& times() const override { return times_; }
