@@ -11,7 +11,7 @@ constexpr std::array<float, 4> kCautionIndirect = {0.5f, 0.5f, 0.5f, 0.5f};
 constexpr std::array<float, 2> kCautionDirect = {1.0f, 0.5f};
 /// Bounds on the amplitude of details, relative to (deviation of the fit / R)² × the light: second
 /// order in the distance R of what sends it [WH92].
-constexpr float kLeastDetail = 0.03f, kMostDetail = 4.0f;
+constexpr float kLeastDetail = 0.04f, kMostDetail = 4.0f;
 constexpr float kUnbounded = std::numeric_limits<float>::max();
 /// Deviation of the window over which gains are averaged [cells]; of the finest level.
 constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
