@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 constexpr const char* kSide = "64";        // of the atlas [texels]
 constexpr const char* kBakeError = "0.7";  // of the bakes that are compared [%]
-constexpr double kAlike = 0.02;  // relative RMSE; that of two bakes with other seeds is 1.2 %
+constexpr double kAlike = 0.02;  // relative RMSE; that of bakes to 1 % with two seeds is 1.2 %
 
 /// A finished bake of the Cornell box, and edits of its scene.
 class Bake {

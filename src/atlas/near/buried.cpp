@@ -63,12 +63,11 @@ public:
         std::fill(hidden.begin(), hidden.end(), true);
         left_.resize(points.size());
         std::iota(left_.begin(), left_.end(), 0u);
-        backs_ = 0;
-        find_open(points, hidden);
-        is_near_back_ = is_near_back_ || double(backs_) >= kManyBacks * double(points.size());
+        in_doubt_.clear();
+        const std::size_t backs = find_open(points, hidden);
+        is_near_back_ = is_near_back_ || double(backs) >= kManyBacks * double(points.size());
         if (is_near_back_)
             find_shut_in(points, hidden);
-        in_doubt_.clear();
     }
 
     /// Directions by which points were first found open.
@@ -77,31 +76,37 @@ public:
     bool is_near_back() const { return is_near_back_; }
 
 private:
-    /// Among left_, which then are those that are still hidden.
-    void find_open(std::span<const LumelPoint> points, std::span<bool> hidden)
+    /// Among left_, which then are those that are still hidden. Returns how many rays hit backs
+    /// nearby.
+    std::size_t find_open(std::span<const LumelPoint> points, std::span<bool> hidden)
     {
+        std::size_t backs = 0;
         const std::uint32_t first = last_;
         for (std::uint32_t k = 0; k < kDirections && !left_.empty(); ++k) {
             const std::uint32_t direction = k == 0 ? first : k <= first ? k - 1 : k;
             if ((tried_ >> direction & 1u) == 0)
                 continue;
             cast(points, direction);
-            for (std::size_t r = 0; r < left_.size(); ++r)
-                if (is_open(points[left_[r]].normal, rays_[r], hits_[r])) {
-                    hidden[left_[r]] = false;
-                    last_ = direction;
-                    successful_ |= 1u << direction;
-                    if (is_near(hits_[r]))
-                        in_doubt_.push_back(left_[r]);
-                }
+            for (std::size_t r = 0; r < left_.size(); ++r) {
+                const RayHit& hit = hits_[r];
+                backs += is_near(hit) && is_back(hit) ? 1 : 0;
+                if (!is_open(points[left_[r]].normal, rays_[r], hit))
+                    continue;
+                hidden[left_[r]] = false;
+                last_ = direction;
+                successful_ |= 1u << direction;
+                if (is_near(hit))
+                    in_doubt_.push_back(left_[r]);
+            }
             std::erase_if(left_, [&](std::uint32_t p) { return !hidden[p]; });
         }
+        return backs;
     }
 
     /// Hides points that are open by few fronts nearby, which are shut in themselves.
     void find_shut_in(std::span<const LumelPoint> points, std::span<bool> hidden)
     {
-        left_ = in_doubt_;
+        left_.swap(in_doubt_);
         std::vector<int> fronts(points.size(), 0);
         for (std::uint32_t direction = 0; direction < kDirections && !left_.empty(); ++direction) {
             cast(points, direction);
@@ -117,7 +122,7 @@ private:
             hidden[p] = true;
     }
 
-    /// Casts rays from points that are hidden so far.
+    /// Casts rays from the points left_.
     void cast(std::span<const LumelPoint> points, std::uint32_t direction)
     {
         glm::vec2 st = sobol_pair(direction, hash_two(std::uint32_t(lumel_), 1));
@@ -165,25 +170,20 @@ private:
         return false;
     }
 
-    bool is_open(const glm::vec3& normal, const RaySpan& ray, const RayHit& hit)
+    bool is_open(const glm::vec3& normal, const RaySpan& ray, const RayHit& hit) const
     {
         if (std::isinf(hit.distance))
             return true;
-        if (is_back(hit)) {
-            backs_ += is_near(hit) ? 1 : 0;
-            return false;
-        }
-        return hit.distance * glm::dot(ray.direction, normal) >=
-               kContact * look_.world[lumel_].size;
+        return !is_back(hit) && hit.distance * glm::dot(ray.direction, normal) >=
+                                    kContact * look_.world[lumel_].size;
     }
 
     const LumelsInScene& look_;
     std::size_t lumel_;
     Directions tried_, successful_ = 0;
     bool is_near_back_;
-    std::size_t backs_ = 0;  ///< nearby that rays hit, until all points were open or hidden
     std::uint32_t last_ = 0;
-    std::vector<std::uint32_t> left_;      ///< points that are hidden so far
+    std::vector<std::uint32_t> left_;      ///< points that are not yet decided
     std::vector<RaySpan> rays_;            ///< [left_]
     std::vector<RayHit> hits_;             ///< [left_]
     std::vector<std::uint32_t> in_doubt_;  ///< points that are open by a front nearby
@@ -194,13 +194,8 @@ enum class Openness { open, partly, hidden };
 struct FirstLook {
     Openness openness;
     Directions successful;  ///< of rays from its points
-    bool is_near_back;      ///< one of them hit a back
+    bool is_near_back;      ///< many of them hit backs nearby
 };
-
-LumelPoint point_of(const Piece& piece, const glm::vec2& uv)
-{
-    return {piece.origin + uv.x * piece.edge_u + uv.y * piece.edge_v, piece.normal};
-}
 
 /// Tests a few points: near the corners of its pieces, where neighbours begin to cover it, and over
 /// the whole lumel.
@@ -218,7 +213,7 @@ FirstLook first_look(const LumelsInScene& look, std::size_t i)
              {glm::vec2(kFromEdges), glm::vec2(1.0f - 2.0f * kFromEdges, kFromEdges),
               glm::vec2(kFromEdges, 1.0f - 2.0f * kFromEdges),
               glm::vec2(piece.parallelogram ? 1.0f - kFromEdges : 0.5f - kFromEdges)})
-            points[count++] = point_of(piece, uv);
+            points[count++] = point_in(piece, uv.x, uv.y);
     const std::span tested = std::span(hidden).first(count);
     HiddenPoints are_hidden(look, i, kAllDirections, false);
     are_hidden(std::span(points).first(count), tested);
@@ -358,7 +353,7 @@ private:
 
     LumelPoint point(float along, float across) const
     {
-        return point_of(in_world_, swapped_ ? glm::vec2(across, along) : glm::vec2(along, across));
+        return swapped_ ? point_in(in_world_, across, along) : point_in(in_world_, along, across);
     }
 
     /// Position of a strip's centre line.
