@@ -18,7 +18,7 @@ RayAllocation::Chosen RayAllocation::choose(float mark) const
     return {std::size_t(chosen - rest.begin()), std::max(guess / rest.back(), 0.0f)};
 }
 
-RayAllocation allocate_rays(const LightSources& sources, const glm::vec3& position,
+RayAllocation allocate_rays(const LightSources& sources, const Receiver& receiver,
                             std::uint32_t rays)
 {
     RayAllocation shares;
@@ -26,13 +26,13 @@ RayAllocation allocate_rays(const LightSources& sources, const glm::vec3& positi
     std::vector<float> guesses;
     double total = 0.0;
     for (std::size_t s = 0; s < count; ++s)
-        total += double(guesses.emplace_back(sources.sampling_weight(s, position, 0.0f)));
+        total += double(guesses.emplace_back(sources.sampling_weight(s, receiver)));
     const bool for_all = count * kFewRays <= rays;
     double rest = 0.0;
     shares.rest.reserve(count);
     for (std::size_t s = 0; s < count; ++s) {
         const double part = total > 0.0 ? double(rays) * double(guesses[s]) / total : 0.0;
-        if (for_all || part >= kFewRays)
+        if (guesses[s] > 0.0f && (for_all || part >= kFewRays))
             shares.own.push_back({s, std::max(std::uint32_t(std::ceil(part)), kFewRays)});
         else
             rest += double(guesses[s]);

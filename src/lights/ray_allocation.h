@@ -28,8 +28,8 @@ struct RayAllocation {
 };
 
 /// Allocates about `rays` rays by sampling weight. Weak sources share rays, unless all can have
-/// their own.
-RayAllocation allocate_rays(const LightSources& sources, const glm::vec3& position,
+/// their own; those that cannot be seen get none.
+RayAllocation allocate_rays(const LightSources& sources, const Receiver& receiver,
                             std::uint32_t rays);
 
 }  // namespace lumel

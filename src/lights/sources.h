@@ -25,6 +25,19 @@ struct SourceSample {
     std::uint32_t source = 0;  ///< index in its LightSources
 };
 
+/// Where light is received, for sampling weights.
+struct Receiver {
+    Box box;  ///< around its points [m]
+    /// Unit; the box then lies in a plane, and only light from above it counts. 0: from all sides.
+    glm::vec3 normal{0.0f};
+};
+Receiver receiver_of(const WorldLumels& world, std::size_t lumel);
+/// A point, whose normal may be 0.
+inline Receiver receiver_at(const glm::vec3& position, const glm::vec3& normal)
+{
+    return {{position, position}, normal};
+}
+
 /// Lights of a scene that count as sources.
 struct LightSelection {
     bool surfaces = true, lamps = true, sky = true;
@@ -66,9 +79,9 @@ public:
     /// Draws one sample. at: uniform sample in the unit square.
     SourceSample sample(std::size_t source, const RayOrigin& start, const glm::vec2& at) const;
 
-    /// Sampling weight: rough irradiance of a source near `position` [lx], > 0 wherever it can
-    /// contribute.
-    float sampling_weight(std::size_t source, const glm::vec3& position, float size) const;
+    /// Sampling weight: rough unoccluded irradiance of a source on a receiver [lx], > 0 wherever it
+    /// can contribute, and 0 where planes or cones show that it cannot, as in [CEK18].
+    float sampling_weight(std::size_t source, const Receiver& receiver) const;
 
     /// True if the source covers a small solid angle, as a sun or a point does.
     bool is_small(std::size_t source) const { return sources_[source].small; }
@@ -99,6 +112,7 @@ private:
         glm::vec3 centre{0.0f};    ///< [m]
         float radius = 0.0f;       ///< bounding radius [m]
         Box box;                   ///< bounding box [m]
+        glm::vec3 normal{0.0f};    ///< unit, if it is flat and emits to one side; else 0
     };
 
     SourceSample sample_of(const Source& source, const RayOrigin& start, const glm::vec2& at) const;
@@ -118,6 +132,8 @@ private:
     SourceSample from_sun(const PunctualLight& light, const RayOrigin& start,
                           const glm::vec2& at) const;
     SourceSample from_sky(const RayOrigin& start, const glm::vec2& at) const;
+    void find_normal(Source& source) const;
+    float lamp_weight(const Source& source, const Receiver& receiver, float apart) const;
 
     const Scene* scene_;
     const Surfaces* surfaces_;

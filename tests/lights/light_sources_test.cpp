@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -83,6 +84,54 @@ TEST(LightSources, APlateThatTurnsItsBackSendsNothing)
     const Surfaces surfaces(scene);
     const LightSources sources(scene, surfaces, kExtent);
     EXPECT_EQ(mean_of_samples(sources, 0, upward()), glm::dvec3(0.0));
+}
+
+/// Plates and lamps of all kinds, at random.
+Scene any_lights(std::mt19937& random)
+{
+    std::uniform_real_distribution<float> place(-2.0f, 2.0f), angle(0.1f, 1.5f);
+    const auto somewhere = [&] { return glm::vec3(place(random), place(random), place(random)); };
+    Scene scene;
+    for (int k = 0; k < 4; ++k) {
+        support::Quad plate;
+        plate.corner = somewhere();
+        plate.edge_u = somewhere();
+        plate.edge_v = somewhere();
+        plate.emission = glm::vec3(1.0f);
+        support::add_quad(scene, plate);
+    }
+    for (int k = 0; k < 4; ++k)
+        for (const auto kind : {PunctualLight::Kind::point, PunctualLight::Kind::spot,
+                                PunctualLight::Kind::directional}) {
+            PunctualLight light = support::make_lamp(kind, 1.0f, somewhere(), somewhere());
+            light.outer_cone = angle(random);
+            light.inner_cone = 0.5f * light.outer_cone;
+            light.radius = kind != PunctualLight::Kind::directional && k % 2 == 1 ? 0.2f : 0.0f;
+            light.angle = kind == PunctualLight::Kind::directional && k % 2 == 1 ? 0.3f : 0.0f;
+            light.range = k == 2 ? 1.5f : 0.0f;
+            scene.lights.push_back(light);
+        }
+    return scene;
+}
+
+TEST(LightSources, HaveASamplingWeightWhereverTheirLightArrives)
+{
+    std::mt19937 random(3);
+    int without = 0, dark = 0;
+    for (int n = 0; n < 200; ++n) {
+        const Scene scene = any_lights(random);
+        const Surfaces surfaces(scene);
+        const LightSources sources(scene, surfaces, kExtent);
+        const Receiver receiver = receiver_at(upward().position, upward().normal);
+        for (std::size_t s = 0; s < sources.count(); ++s) {
+            const bool is_lit = mean_of_samples(sources, s, upward(), 16).g > 0.0;
+            const bool has_weight = sources.sampling_weight(s, receiver) > 0.0f;
+            EXPECT_TRUE(has_weight || !is_lit) << "source " << s << " of scene " << n;
+            dark += is_lit ? 0 : 1;
+            without += has_weight ? 0 : 1;
+        }
+    }
+    EXPECT_GT(without, dark / 2) << "half of those whose light does not arrive";
 }
 
 TEST(LightSources, LampsSendTheirIntensityByTheSquareOfTheDistanceAndTheCosine)

@@ -15,6 +15,7 @@ using support::upward;
 
 constexpr std::uint32_t kRays = 64;
 constexpr int kMarks = 1 << 14;
+const Receiver kPoint = receiver_at(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f});
 
 /// Two strong lamps among weak ones, all above a point.
 struct ManyLamps {
@@ -58,7 +59,7 @@ struct ManyLamps {
 TEST(RayAllocation, FindsTheLightOfAllSourcesOnAverage)
 {
     const ManyLamps many(200);
-    const RayAllocation shares = allocate_rays(many.sources, glm::vec3(0.0f), kRays);
+    const RayAllocation shares = allocate_rays(many.sources, kPoint, kRays);
     ASSERT_FALSE(shares.own.empty());
     ASSERT_GT(shares.rest_rays, 0u);
     double found = 0.0;
@@ -75,7 +76,7 @@ TEST(RayAllocation, FindsTheLightOfAllSourcesOnAverage)
 TEST(RayAllocation, ChoosesASourceAsOftenAsItSays)
 {
     const ManyLamps many(30);
-    const RayAllocation shares = allocate_rays(many.sources, glm::vec3(0.0f), kRays);
+    const RayAllocation shares = allocate_rays(many.sources, kPoint, kRays);
     std::vector<int> chosen(many.sources.count(), 0);
     std::vector<double> said(many.sources.count(), 0.0);
     for (int k = 0; k < kMarks; ++k) {
@@ -96,15 +97,14 @@ TEST(RayAllocation, ChoosesASourceAsOftenAsItSays)
 TEST(RayAllocation, GivesRaysByWeightAndAboutAsManyAsThereAre)
 {
     const ManyLamps many(200);
-    const RayAllocation shares = allocate_rays(many.sources, glm::vec3(0.0f), kRays);
+    const RayAllocation shares = allocate_rays(many.sources, kPoint, kRays);
     std::uint32_t rays = shares.rest_rays;
     double total = 0.0;
     for (std::size_t s = 0; s < many.sources.count(); ++s)
-        total += double(many.sources.sampling_weight(s, glm::vec3(0.0f), 0.0f));
+        total += double(many.sources.sampling_weight(s, kPoint));
     for (const RayAllocation::Own& own : shares.own) {
         rays += own.rays;
-        const double share =
-            double(many.sources.sampling_weight(own.source, glm::vec3(0.0f), 0.0f)) / total;
+        const double share = double(many.sources.sampling_weight(own.source, kPoint)) / total;
         EXPECT_NEAR(double(own.rays), share * kRays, 1.0);
     }
     EXPECT_GE(rays, kRays);
@@ -114,8 +114,26 @@ TEST(RayAllocation, GivesRaysByWeightAndAboutAsManyAsThereAre)
 TEST(RayAllocation, GivesEachOfFewSourcesItsOwn)
 {
     const ManyLamps few(4);
-    const RayAllocation shares = allocate_rays(few.sources, glm::vec3(0.0f), kRays);
+    const RayAllocation shares = allocate_rays(few.sources, kPoint, kRays);
     EXPECT_EQ(shares.own.size(), 6u);
+    EXPECT_EQ(shares.rest_rays, 0u);
+}
+
+TEST(RayAllocation, SourcesBelowThePlaneTakeNoRaysFromThoseAbove)
+{
+    Scene scene;
+    for (const float z : {-0.5f, 2.0f})
+        for (const float x : {-1.0f, 0.0f, 1.0f})
+            scene.lights.push_back(support::make_lamp(PunctualLight::Kind::point,
+                                                      z < 0.0f ? 1e4f : 1.0f, {x, 0.0f, z}));
+    const Surfaces surfaces(scene);
+    const LightSources sources(scene, surfaces, 4.0f);
+    const RayAllocation shares = allocate_rays(sources, kPoint, kRays);
+    ASSERT_EQ(shares.own.size(), 3u);
+    for (const RayAllocation::Own& own : shares.own) {
+        EXPECT_GE(own.source, 3u) << "it is below";
+        EXPECT_GE(own.rays, kRays / 4);
+    }
     EXPECT_EQ(shares.rest_rays, 0u);
 }
 

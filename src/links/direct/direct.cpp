@@ -95,17 +95,19 @@ DirectEstimator::DirectEstimator(const LinkWork& work, std::uint32_t seed, const
 
 /// Strong sources have their own rays, in proportion to their sampling weights. `rest`: cumulative
 /// weights over all sources, 0 for the strong ones.
-std::vector<DirectEstimator::RaysTo>
-DirectEstimator::share_out_rays(const glm::vec3& at, float size, std::vector<float>& rest) const
+std::vector<DirectEstimator::RaysTo> DirectEstimator::share_out_rays(const Receiver& receiver,
+                                                                     std::vector<float>& rest) const
 {
     rest.resize(work_.sources.count());
     float total = 0.0f, most = 0.0f;
     for (std::uint32_t s = 0; s < work_.sources.count(); ++s) {
-        total += rest[s] = work_.sources.sampling_weight(s, at, size);
+        total += rest[s] = work_.sources.sampling_weight(s, receiver);
         most = std::max(most, rest[s]);
     }
+    if (!(total > 0.0f))
+        return {};
     const auto halved = [&](float guess) {
-        const float times = most > 0.0f ? std::round(std::log2(most / guess)) : 0.0f;
+        const float times = std::round(std::log2(most / guess));
         return std::uint32_t(std::clamp(times, 0.0f, float(kMaxHalved)));
     };
     std::vector<RaysTo> result;
@@ -168,10 +170,12 @@ void DirectEstimator::sample_lights(const RayOrigin& start, float size, std::uin
         return;
     }
     // A few, selected by sampling weight.
+    const Box around = Box{start.position, start.position}.grown(0.5f * size);
+    const Receiver receiver{around, start.geometric};
     std::vector<float> running(count);
     float sum = 0.0f;
     for (std::uint32_t s = 0; s < count; ++s)
-        running[s] = sum += work_.sources.sampling_weight(s, start.position, size);
+        running[s] = sum += work_.sources.sampling_weight(s, receiver);
     for (std::uint32_t k = 0; k < kMaxSought; ++k) {
         const Choice choice =
             choose(running, (place_on(count + k).x + float(k)) / float(kMaxSought));
@@ -223,14 +227,12 @@ void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t 
 /// Adds the rays of lumel i in this pass.
 void DirectEstimator::add(std::uint32_t i, RayBatch& wave) const
 {
-    const Lumel& lumel = work_.lumels()[i];
     std::vector<float> rest;
     std::optional<SeenCells> seen;
     if (parts_ && parts_->has_hidden(i))
         seen.emplace(parts_->seen_cells(i));
-    if (!(lumel.flags & kLumelBuried))
-        for (const RaysTo& to :
-             share_out_rays(work_.starts.start(i, glm::vec2(0.5f)).position, lumel.size, rest))
+    if (!work_.is_buried(i))
+        for (const RaysTo& to : share_out_rays(receiver_of(work_.world, i), rest))
             add_rays(i, to, more_[i], seen ? &*seen : nullptr, wave);
     wave.lumels.push_back(i);
     wave.groups_before.push_back(std::uint32_t(wave.groups.size()));

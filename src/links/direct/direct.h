@@ -155,8 +155,7 @@ private:
         }
     };
 
-    std::vector<RaysTo> share_out_rays(const glm::vec3& at, float size,
-                                       std::vector<float>& rest) const;
+    std::vector<RaysTo> share_out_rays(const Receiver& receiver, std::vector<float>& rest) const;
     void look(const RayOrigin& start, std::size_t source, float factor, const glm::vec2& at,
               std::uint32_t seed, ShadowRays& looks) const;
     static Choice choose(const std::vector<float>& running, float at);

@@ -18,6 +18,9 @@ constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
 /// Deviations of the window for local noise [cells], of indirect and of direct light. A detail
 /// above this multiple of that noise is taken for light.
 constexpr float kNoiseSpreadIndirect = 1.5f, kNoiseSpreadDirect = 1.0f, kLocalCaution = 3.0f;
+/// The multiple for details that are alone: that the wide window's signal, with this caution, does
+/// not tell of. Chance exceeds it in less than one cell of 10,000.
+constexpr float kLoneCautionIndirect = 3.0f, kLoneCautionDirect = 8.0f, kTellingCaution = 0.75f;
 /// Radius of the window in deviations.
 constexpr float kGainRadius = 2.5f;
 
@@ -112,7 +115,9 @@ float gain_of(const Moments& sums, const Moments& next, const PyramidRule& rule,
     const Moments here = next.count > 0.0f ? next * (sums.count / next.count) : sums;
     const float most = rule.is_bounded ? kMostDetail * kMostDetail * sums.bound : kUnbounded,
                 least = rule.is_bounded ? kLeastDetail * kLeastDetail * sums.bound : 0.0f;
-    const float local = std::clamp(here.signal - kLocalCaution * here.noise(), 0.0f, most),
+    const bool is_lone = !(sums.signal > kTellingCaution * sums.noise());
+    const float local_caution = is_lone ? rule.lone_caution : kLocalCaution;
+    const float local = std::clamp(here.signal - local_caution * here.noise(), 0.0f, most),
                 wide = std::clamp(sums.signal - caution * sums.noise(), least, most);
     return rule.has_local_noise ? wiener(std::max(wide, local), here.noise())
                                 : std::max(wiener(wide, sums.noise()), wiener(local, here.noise()));
@@ -211,6 +216,7 @@ PyramidRule rule_of_indirect()
     return {.caution = kCautionIndirect,
             .is_bounded = true,
             .noise_spread = kNoiseSpreadIndirect,
+            .lone_caution = kLoneCautionIndirect,
             .has_local_noise = false};
 }
 
@@ -219,6 +225,7 @@ PyramidRule rule_of_direct()
     return {.caution = kCautionDirect,
             .is_bounded = false,
             .noise_spread = kNoiseSpreadDirect,
+            .lone_caution = kLoneCautionDirect,
             .has_local_noise = true};
 }
 

@@ -25,6 +25,9 @@ struct PyramidRule {
     /// Deviation of the window of few cells in which a detail can stand out of the noise [cells]:
     /// lumels with many rays beside noisy ones.
     float noise_spread;
+    /// A detail there must be above this multiple of the noise where the wide window tells of none:
+    /// of many cells, few stand out by chance.
+    float lone_caution;
     /// Averages noise over that window alone: beside a noisy penumbra, lumels that see all of the
     /// light or none of it are exact.
     bool has_local_noise;

@@ -241,9 +241,9 @@ glm::vec3 LightGroups::by_many(const Emitter& sender, std::uint32_t stream, std:
 {
     std::vector<float> running(sender.sources.size());
     float total = 0.0f;
+    const Receiver receiver = receiver_of(place_.world, i);
     for (std::size_t n = 0; n < running.size(); ++n)
-        running[n] = total += place_.sources.sampling_weight(
-            sender.sources[n], place_.world[i].centre, place_.lumels()[i].size);
+        running[n] = total += place_.sources.sampling_weight(sender.sources[n], receiver);
     glm::vec3 sum(0.0f);
     for (std::uint32_t k = 0; k < options_.many_rays; ++k) {
         const PathSamples samples(stream, k);

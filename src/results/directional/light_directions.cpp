@@ -90,7 +90,7 @@ private:
 
     void add_lamps(std::size_t i, std::uint32_t stream, Coefficients& sums) const
     {
-        const RayAllocation shares = allocate_rays(sources_, places_[i].centre, kLampRays);
+        const RayAllocation shares = allocate_rays(sources_, receiver_of(places_, i), kLampRays);
         for (const auto& [source, rays] : shares.own) {
             const std::uint32_t own =
                 PathSamples::hash(stream, kFirstSourceStream + std::uint32_t(source));

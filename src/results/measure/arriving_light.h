@@ -31,9 +31,9 @@ public:
                   const Lumels& lumels, std::span<const glm::vec3> irradiance);
 
     /// Rays to all sources; see lumel::allocate_rays.
-    RayAllocation allocate_rays(const glm::vec3& position, std::uint32_t rays) const
+    RayAllocation allocate_rays(const Receiver& receiver, std::uint32_t rays) const
     {
-        return lumel::allocate_rays(sources_, position, rays);
+        return lumel::allocate_rays(sources_, receiver, rays);
     }
 
     /// Light along a ray. backs: counts rays from the inside of objects:

@@ -39,7 +39,8 @@ RayOrigin LightMeter::start_at(const MeterPoint& point) const
 Reading LightMeter::read(const MeterPoint& point, std::uint32_t number) const
 {
     const RayOrigin start = start_at(point);
-    const RayAllocation shares = light_.allocate_rays(start.position, rays_of_set_);
+    const RayAllocation shares =
+        light_.allocate_rays(receiver_at(start.position, start.normal), rays_of_set_);
     std::array<double, kRaySets> lux;
     Reading reading;
     std::uint32_t backs = 0;
@@ -67,7 +68,8 @@ LampReadings LightMeter::read_lamps(const MeterPoint& point, std::uint32_t numbe
                                     const LampShares& shares) const
 {
     const RayOrigin start = start_at(point);
-    const RayAllocation allocation = light_.allocate_rays(start.position, rays_of_set_);
+    const RayAllocation allocation =
+        light_.allocate_rays(receiver_at(start.position, start.normal), rays_of_set_);
     LampReadings readings{.lux = std::vector<double>(shares.lamps.all.size(), 0.0)};
     std::vector<double>& lux = readings.lux;
     std::uint32_t backs = 0;

@@ -94,7 +94,8 @@ LightProbe::LightProbe(const Scene& scene, const RayScene& rays, const Atlas& at
 
 ProbeLight LightProbe::read(const glm::vec3& position, std::uint32_t number) const
 {
-    const RayAllocation shares = light_.allocate_rays(position, rays_of_set_);
+    const RayAllocation shares =
+        light_.allocate_rays(receiver_at(position, glm::vec3(0.0f)), rays_of_set_);
     std::array<Coefficients, kRaySets> sums{};
     ProbeLight probe;
     std::uint32_t backs = 0;
