@@ -82,6 +82,40 @@ TEST(Advice, TellsOfBackSides)
                {"back sides", "single-sided"});
 }
 
+/// A plate before a lamp and a camera, which look along -z.
+Scene plate_before_them(bool turned, bool double_sided)
+{
+    Scene scene;
+    support::Quad plate{.corner = {-9.0f, -9.0f, -1.0f},
+                        .edge_u = {18.0f, 0.0f, 0.0f},
+                        .edge_v = {0.0f, 18.0f, 0.0f},
+                        .double_sided = double_sided};
+    if (turned)
+        std::swap(plate.edge_u, plate.edge_v);
+    support::add_quad(scene, plate);
+    scene.instances.back().name = "plate";
+    return scene;
+}
+
+TEST(Advice, NamesWhatLampsAndCamerasSeeFromBehind)
+{
+    for (const bool turned : {false, true})
+        for (const bool double_sided : {false, true})
+            for (const bool has_lamp : {false, true}) {
+                Scene scene = plate_before_them(turned, double_sided);
+                if (has_lamp)
+                    scene.lights = {{.kind = PunctualLight::Kind::point}};
+                else
+                    scene.cameras.push_back({});
+                if (turned && !double_sided)
+                    expect_one(advice_on(scene), {"100 % of", "\"plate\" from behind",
+                                                  has_lamp ? "lamps" : "camera"});
+                else
+                    for (const std::string& sentence : advice_on(scene))
+                        EXPECT_EQ(sentence.find("from behind"), std::string::npos) << sentence;
+            }
+}
+
 TEST(Advice, TellsOfASkyThatIsDarkBesideTheSun)
 {
     PunctualLight sun{.kind = PunctualLight::Kind::directional, .intensity = 1e5f};

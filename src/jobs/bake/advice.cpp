@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/core/luminance.h"
+#include "jobs/bake/seen_backs.h"
 #include "scene/values/sky.h"
 #include "solve/solver/solver.h"
 
@@ -15,6 +16,7 @@ namespace {
 constexpr double kMuch = 0.6, kManyBacks = 0.4;
 /// Scenes of fewer objects get no advice on them.
 constexpr std::size_t kFewObjects = 4;
+constexpr std::size_t kMostSentences = 3;
 /// Names in one sentence.
 constexpr std::size_t kMostNames = 3;
 /// A clear sky gives about a tenth of the sun's light, a hazy one more.
@@ -90,9 +92,10 @@ std::string of_daylight(const Scene& scene)
 
 std::vector<std::string> advice(const SolveScene& prepared, const AtlasOptions& chosen)
 {
-    std::vector<std::string> sentences{of_objects(prepared, chosen), of_back_sides(prepared),
-                                       of_daylight(prepared.scene)};
+    std::vector<std::string> sentences{of_seen_backs(prepared), of_daylight(prepared.scene),
+                                       of_objects(prepared, chosen), of_back_sides(prepared)};
     std::erase(sentences, std::string());
+    sentences.resize(std::min(sentences.size(), kMostSentences));
     return sentences;
 }
 
