@@ -18,9 +18,8 @@ constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
 /// Deviations of the window for local noise [cells], of indirect and of direct light. A detail
 /// above this multiple of that noise is taken for light.
 constexpr float kNoiseSpreadIndirect = 1.5f, kNoiseSpreadDirect = 1.0f, kLocalCaution = 3.0f;
-/// The multiple for details that are alone: that the wide window's signal, with this caution, does
-/// not tell of. Chance exceeds it in less than one cell of 10,000.
-constexpr float kLoneCautionIndirect = 3.0f, kLoneCautionDirect = 8.0f, kTellingCaution = 0.75f;
+/// The multiple where the wide window's signal, with the second caution, tells of no detail.
+constexpr float kLoneCaution = 5.0f, kTellingCaution = 0.75f;
 /// Radius of the window in deviations.
 constexpr float kGainRadius = 2.5f;
 
@@ -71,6 +70,12 @@ Moments moments_of(const FitLight<Count>& detail, const FitLight<Count>& fitted,
     return moments;
 }
 
+/// Gaussian of a squared distance.
+float bell_at(float squared, float spread)
+{
+    return std::exp(-0.5f * squared / (spread * spread));
+}
+
 /// Gaussian blur of rows or columns, in place.
 void blur(std::vector<Moments>& cells, std::size_t lines, std::size_t length, std::size_t from_line,
           std::size_t from_cell, const std::vector<float>& bell)
@@ -97,7 +102,7 @@ void blur(std::vector<Moments>& cells, int width, int height, float spread)
 {
     std::vector<float> bell;
     for (int r = 0; float(r) <= kGainRadius * spread; ++r)
-        bell.push_back(std::exp(-0.5f * float(r * r) / (spread * spread)));
+        bell.push_back(bell_at(float(r * r), spread));
     const auto across = std::size_t(width), down = std::size_t(height);
     blur(cells, down, across, across, 1, bell);
     blur(cells, across, down, 1, across, bell);
@@ -109,16 +114,35 @@ float wiener(float signal, float noise)
     return signal + noise > 0.0f ? signal / (signal + noise) : 1.0f;
 }
 
-/// next: sums over the window for local noise.
-float gain_of(const Moments& sums, const Moments& next, const PyramidRule& rule, float caution)
+/// The most that a cell, or one next to it, adds to the signal of a window about it. Of many cells
+/// few are bright in all estimates by chance, and must not tell of themselves. bell: weights by
+/// squared distance.
+float strongest_about(const std::vector<Moments>& cells, int width, int height, int x, int y,
+                      const std::array<float, 3>& bell)
 {
-    const Moments here = next.count > 0.0f ? next * (sums.count / next.count) : sums;
+    float most = 0.0f;
+    for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, height - 1); ++ny)
+        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, width - 1); ++nx) {
+            const auto squared = std::size_t((nx - x) * (nx - x) + (ny - y) * (ny - y));
+            const std::size_t cell = std::size_t(ny) * std::size_t(width) + std::size_t(nx);
+            most = std::max(most, cells[cell].signal * bell[squared]);
+        }
+    return most;
+}
+
+/// next: sums over the window for local noise. strongest: see strongest_about().
+float gain_of(const Moments& sums, const Moments& next, float strongest, const PyramidRule& rule,
+              float caution)
+{
+    const float scale = next.count > 0.0f ? sums.count / next.count : 0.0f;
+    const Moments here = next.count > 0.0f ? next * scale : sums;
     const float most = rule.is_bounded ? kMostDetail * kMostDetail * sums.bound : kUnbounded,
                 least = rule.is_bounded ? kLeastDetail * kLeastDetail * sums.bound : 0.0f;
     const bool is_lone = !(sums.signal > kTellingCaution * sums.noise());
-    const float local_caution = is_lone ? rule.lone_caution : kLocalCaution;
-    const float local = std::clamp(here.signal - local_caution * here.noise(), 0.0f, most),
-                wide = std::clamp(sums.signal - caution * sums.noise(), least, most);
+    const float stands_out = is_lone ? here.signal - scale * strongest - kLoneCaution * here.noise()
+                                     : here.signal - kLocalCaution * here.noise();
+    const float local = std::clamp(stands_out, 0.0f, most),
+                wide = std::clamp(sums.signal - strongest - caution * sums.noise(), least, most);
     return rule.has_local_noise ? wiener(std::max(wide, local), here.noise())
                                 : std::max(wiener(wide, sums.noise()), wiener(local, here.noise()));
 }
@@ -182,13 +206,20 @@ std::vector<float> gains_of(const FilterChart& chart, const FitLevel<Count>& lev
         }
     for (std::size_t cell = 0; cell < cells.size(); ++cell)
         octaves[cell] /= std::max(cells[cell].count, 1.0f);
+    const std::vector<Moments> own = cells;
     std::vector<Moments> next = cells;
     blur(next, level.width, level.height, rule.noise_spread);
     cells = averaged(cells, octaves, level.width, level.height,
                      level.side == 1 ? kFinestGainSpread : kGainSpread);
     std::vector<float> gains(cells.size());
-    for (std::size_t cell = 0; cell < cells.size(); ++cell)
-        gains[cell] = gain_of(cells[cell], next[cell], rule, caution);
+    const std::array<float, 3> bell = {1.0f, bell_at(1.0f, rule.noise_spread),
+                                       bell_at(2.0f, rule.noise_spread)};
+    for (int y = 0; y < level.height; ++y)
+        for (int x = 0; x < level.width; ++x) {
+            const std::size_t cell = level.at(x, y);
+            const float strongest = strongest_about(own, level.width, level.height, x, y, bell);
+            gains[cell] = gain_of(cells[cell], next[cell], strongest, rule, caution);
+        }
     return gains;
 }
 
@@ -216,7 +247,6 @@ PyramidRule rule_of_indirect()
     return {.caution = kCautionIndirect,
             .is_bounded = true,
             .noise_spread = kNoiseSpreadIndirect,
-            .lone_caution = kLoneCautionIndirect,
             .has_local_noise = false};
 }
 
@@ -225,7 +255,6 @@ PyramidRule rule_of_direct()
     return {.caution = kCautionDirect,
             .is_bounded = false,
             .noise_spread = kNoiseSpreadDirect,
-            .lone_caution = kLoneCautionDirect,
             .has_local_noise = true};
 }
 

@@ -25,9 +25,6 @@ struct PyramidRule {
     /// Deviation of the window of few cells in which a detail can stand out of the noise [cells]:
     /// lumels with many rays beside noisy ones.
     float noise_spread;
-    /// A detail there must be above this multiple of the noise where the wide window tells of none:
-    /// of many cells, few stand out by chance.
-    float lone_caution;
     /// Averages noise over that window alone: beside a noisy penumbra, lumels that see all of the
     /// light or none of it are exact.
     bool has_local_noise;
@@ -55,8 +52,9 @@ struct Filtered {
 ///
 /// T is signal, as noise of different estimates is independent, and ν the noise of their mean, both
 /// averaged over cells nearby, of indirect light over those as far from other geometry [CPD07]; ν
-/// of direct light over the next cells only: an empirical Wiener filter. Of indirect light β is at
-/// least that of the next cells alone, with a caution of 3. All estimates have the same gains.
+/// of direct light over the next cells only: an empirical Wiener filter. T is without the strongest
+/// cell there. Of indirect light β is at least that of the next cells alone, with a caution of 3
+/// to 5. All estimates have the same gains.
 template <std::size_t Count>
 Filtered<Count> filter_chart(const FilterChart& chart,
                              const std::array<const Estimates*, Count>& found,
