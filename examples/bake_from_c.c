@@ -1,5 +1,5 @@
-/* A host in C that makes a room of its own, bakes it on the processor, and writes a picture of the
- * lightmap, the lit room as glTF, and the light in its middle.
+/* A host in C that makes a room of its own, bakes it on the processor, and writes pictures of the
+ * lightmap, also with a dimmed lamp, the lit room as glTF, and the light in its middle.
  *
  *     bake_from_c [FOLDER]
  */
@@ -72,10 +72,16 @@ static lumel_scene* make_room(void)
                              .materials = materials,
                              .triangle_materials = material_of};
     const lumel_instance instance = {.name = "room", .mesh = &mesh};
-    const lumel_light bulb = {
-        .name = "bulb", .intensity = 100.0f, .position = {0, 0.8f, 0}, .radius = 0.05f};
+    const lumel_light lamps[] = {
+        {.name = "bulb", .intensity = 100.0f, .position = {0, 0.8f, 0}, .radius = 0.05f},
+        {.name = "candle",
+         .color = {1, 0.5f, 0.2f},
+         .intensity = 20.0f,
+         .position = {0.5f, -0.6f, 0.5f},
+         .radius = 0.02f},
+    };
     const lumel_content content = {
-        .instance_count = 1, .instances = &instance, .light_count = 1, .lights = &bulb};
+        .instance_count = 1, .instances = &instance, .light_count = 2, .lights = lamps};
     lumel_scene* scene;
     check(lumel_make_scene(&content, &scene));
     return scene;
@@ -98,12 +104,28 @@ static void write_picture(const char* path, const lumel_map* map, float white)
     fclose(file);
 }
 
+/* Writes the light with one lamp dimmed to a quarter: light is linear in its lamps. */
+static void write_dimmed(const char* path, const lumel_baked* baked, const lumel_lamp* lamp)
+{
+    const long values = 4L * baked->map.width * baked->map.height;
+    float* rgba = malloc((size_t)values * sizeof *rgba);
+    if (!rgba) {
+        perror(path);
+        exit(1);
+    }
+    for (long i = 0; i < values; ++i)
+        rgba[i] = baked->map.rgba[i] - 0.75f * lamp->map.rgba[i];
+    const lumel_map dimmed = {baked->map.width, baked->map.height, rgba};
+    write_picture(path, &dimmed, 400.0f);
+    free(rgba);
+}
+
 int main(int count, char** arguments)
 {
     const char* folder = count > 1 ? arguments[1] : ".";
     lumel_on_warning(warn, NULL);
     lumel_scene* scene = make_room();
-    const lumel_settings settings = {.size = 128, .progress = tell};
+    const lumel_settings settings = {.size = 128, .per_lamp = 1, .progress = tell};
     const lumel_baked* baked;
     check(lumel_bake(NULL, scene, &settings, &baked));
     printf("\n%d x %d texels, %u surfaces, %.1f s, error %.1f %%\n", baked->map.width,
@@ -115,6 +137,10 @@ int main(int count, char** arguments)
                (unsigned)baked->surfaces[s].vertex_count,
                (unsigned)baked->surfaces[s].triangle_count, (unsigned)baked->surfaces[s].primitive);
 
+    for (uint32_t k = 0; k < baked->lamp_count; ++k)
+        printf("lamp %s: %s, error %.1f %%\n", baked->lamps[k].name, baked->lamps[k].kind,
+               100.0 * baked->lamps[k].error);
+
     const float middle[3] = {0, 0, 0};
     lumel_probe probe;
     check(lumel_probes(baked, middle, 1, 0, &probe));
@@ -125,6 +151,8 @@ int main(int count, char** arguments)
     char path[4096];
     snprintf(path, sizeof path, "%s/room.ppm", folder);
     write_picture(path, &baked->map, 400.0f);
+    snprintf(path, sizeof path, "%s/dimmed.ppm", folder);
+    write_dimmed(path, baked, &baked->lamps[0]);
     snprintf(path, sizeof path, "%s/room.glb", folder);
     check(lumel_write_scene(baked, path, LUMEL_KTX2));
     lumel_free_baked(baked);

@@ -26,14 +26,16 @@ class Settings(ctypes.Structure):
                 ("gutter", c_int), ("pages", c_int), ("sides", c_int), ("coarse_afar", c_int),
                 ("density_count", c_uint32), ("densities", c_void_p), ("method", c_char_p),
                 ("options", POINTER(c_char_p)), ("parts", c_int), ("directional", c_int),
-                ("seed", c_uint32), ("error", c_double), ("dark_error", c_double),
-                ("eye_error", c_double), ("visible_noise", c_double), ("seconds", c_double),
-                ("shots", c_uint64), ("max_memory", c_uint64), ("progress", ProgressFunction),
-                ("user", c_void_p)]
+                ("per_lamp", c_int), ("group_count", c_uint32), ("groups", c_void_p),
+                ("weather_file", c_char_p), ("seed", c_uint32), ("error", c_double),
+                ("dark_error", c_double), ("eye_error", c_double), ("visible_noise", c_double),
+                ("seconds", c_double), ("shots", c_uint64), ("max_memory", c_uint64),
+                ("progress", ProgressFunction), ("user", c_void_p)]
 
 
 class Baked(ctypes.Structure):
     _fields_ = [("map", Map), ("directional_count", c_uint32), ("directional", POINTER(Map)),
+                ("lamp_count", c_uint32), ("lamps", c_void_p), ("daylight", c_void_p),
                 ("surface_count", c_uint32), ("surfaces", c_void_p), ("page_count", c_uint32),
                 ("pages", c_void_p), ("note_count", c_uint32), ("notes", POINTER(c_char_p)),
                 ("texels_per_metre", c_float), ("error", c_double), ("eye_error", c_double),

@@ -1,7 +1,7 @@
 /* clang-format off */
 /* Lumel for hosts in C, and for other languages that call C: scenes in memory or from files, baked
- * into lightmaps, directional maps, light probes and glTF files. lumel/lumel.h is the interface for
- * C++; it also has light that stays current while things move.
+ * into lightmaps (also of each lamp, and of daylight), directional maps, light probes and glTF files.
+ * lumel/lumel.h is the interface for C++; it also has light that stays current while things move.
  *
  * Units    As in lumel/lumel.h: metres; right-handed, +y up; radians; linear Rec. 709; irradiance in
  *          lx, luminance in cd/m², intensity of lamps in cd. Text is UTF-8.
@@ -192,6 +192,12 @@ typedef struct lumel_density {
     float texels_per_metre;
 } lumel_density;
 
+/* Joins all lamps whose names fit the pattern (* ?). */
+typedef struct lumel_lamp_group {
+    const char* name;
+    const char* pattern;
+} lumel_lamp_group;
+
 /* As lumel::BakeSettings and lumel::AtlasSettings. Without targets and limits those of `lumel bake`
  * hold. */
 typedef struct lumel_settings {
@@ -208,7 +214,11 @@ typedef struct lumel_settings {
     const char* const* options; /* its options: name, value, name, value, …, NULL; or NULL */
     int parts;                  /* LUMEL_ALL_LIGHT, … */
     int directional;            /* LUMEL_NO_DIRECTIONS, …; others require a device */
-    uint32_t seed;              /* 0: 1 */
+    int per_lamp;               /* 0 or 1: fills lamps of the result; only "links" */
+    uint32_t group_count;       /* groups fill lamps without per_lamp, too */
+    const lumel_lamp_group* groups;
+    const char* weather_file; /* EPW, a year of hours at one place: fills daylight; or NULL */
+    uint32_t seed;            /* 0: 1 */
     double error, dark_error, eye_error, visible_noise; /* targets; 0: none */
     double seconds;                                     /* limit; 0: none */
     uint64_t shots;                                     /* limit; 0: none */
@@ -222,6 +232,45 @@ typedef struct lumel_map {
     int width, height;
     const float* rgba; /* [height][width][4], top row first */
 } lumel_map;
+
+/* Light of a lamp, or of a group. */
+typedef struct lumel_lamp {
+    const char* name; /* of the light, of the emissive instance, or of the group; or "sky" */
+    const char* kind; /* "sky", "sun", "point", "spot", "surface" or "group" */
+    uint32_t member_count;
+    const char* const* members; /* names of a group's lamps, or the lamp's own */
+    lumel_map map;
+    double error;    /* estimated, relative to its own light */
+    double color[3]; /* of its light, linear, the largest channel 1 */
+} lumel_lamp;
+
+/* Light of sky and sun in one hour, alone; of the sun only after a reflection. */
+typedef struct lumel_daylight_map {
+    const char* hour; /* "06-21T12": from 12 to 13 o'clock on 21 June, local standard time */
+    lumel_map map;
+} lumel_daylight_map;
+
+/* An hour with light. */
+typedef struct lumel_daylight_hour {
+    const char* hour;     /* as in lumel_daylight_map */
+    float sun[3];         /* unit direction to the sun in the middle of the hour */
+    float lux;            /* illuminance by direct sun on a plane that faces it [lx] */
+    double mean;          /* mean illuminance of all surfaces, without direct sun [lx] */
+    double error;         /* estimated, relative to the light of the hour */
+    const float* weights; /* [map_count], signed */
+} lumel_daylight_hour;
+
+/* Daylight over a year: the light of an hour is the sum of the maps with its weights, without
+ * direct sun: shade that by `sun` and `lux`. See lumel::DaylightMaps. */
+typedef struct lumel_daylight_maps {
+    const char* place;          /* name in the weather file */
+    double latitude, longitude; /* north and east [rad] */
+    double error;               /* of the sums, due to their number of maps: RMS, relative */
+    uint32_t map_count;         /* at most 48 */
+    const lumel_daylight_map* maps;
+    uint32_t hour_count;
+    const lumel_daylight_hour* hours; /* in the order of the calendar */
+} lumel_daylight_maps;
 
 /* A square of the map: position in it (lightmap × width − (x, y)) / side. */
 typedef struct lumel_page {
@@ -248,6 +297,10 @@ typedef struct lumel_baked {
     lumel_map map;
     uint32_t directional_count; /* 0, 4 or 9 */
     const lumel_map* directional;
+    uint32_t lamp_count;     /* at most 64 */
+    const lumel_lamp* lamps; /* add up to map; a dimmed lamp is its map times a factor */
+    const lumel_daylight_maps* daylight; /* NULL without weather_file or any daylight, or if
+                                            progress ended the bake before */
     uint32_t surface_count;
     const lumel_surface* surfaces; /* by instance, then primitive, then side */
     uint32_t page_count;

@@ -1,4 +1,4 @@
-// Bakes of lumel_c.h.
+// Bakes of lumel_c.h: their settings, calls and files.
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/c_baked.h"
 #include "api/c_calls.h"
 #include "api/c_scene.h"
 
@@ -19,36 +20,6 @@ namespace lumel::v0 {
 namespace {
 
 thread_local std::string last_message;
-
-/// The message with names of lumel_c.h in place of those of lumel.h.
-std::string in_c(std::string message)
-{
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kNames = {{
-        {"BakeSettings::", "settings."},
-        {"AtlasSettings::", "settings."},
-        {"Daylight::", "daylight."},
-        {"Device::Device", "lumel_open_device"},
-        {"Scene::add_daylight", "lumel_add_daylight"},
-        {"Parts::all", "LUMEL_ALL_LIGHT"},
-        {"write_scene()", "lumel_write_scene()"},
-        {"needs a Device", "needs a device"},
-    }};
-    for (const auto& [from, to] : kNames)
-        for (std::size_t at = message.find(from); at != message.npos;
-             at = message.find(from, at + to.size()))
-            message.replace(at, from.size(), to);
-    return message;
-}
-
-/// A result and the arrays that it points to.
-struct CBaked {
-    lumel_baked shown{};
-    Baked baked;
-    std::vector<lumel_map> directional;
-    std::vector<lumel_surface> surfaces;
-    std::vector<lumel_page> pages;
-    std::vector<const char*> notes;
-};
 
 const Baked& baked_of(const lumel_baked* baked)
 {
@@ -137,6 +108,12 @@ BakeSettings settings_of(const lumel_settings& from)
     }
     settings.parts = parts_of(from.parts);
     settings.directional = directional_of(from.directional);
+    settings.per_lamp = from.per_lamp != 0;
+    if (from.group_count > 0)
+        require(from.groups, "settings.groups");
+    for (std::uint32_t i = 0; i < from.group_count; ++i)
+        settings.groups.push_back({text_of(from.groups[i].name), text_of(from.groups[i].pattern)});
+    settings.weather_file = text_of(from.weather_file);
     if (from.seed != 0)
         settings.seed = from.seed;
     if (from.error != 0.0)
@@ -159,75 +136,6 @@ ProgressFunction progress_of(const lumel_settings& from)
                                   now.seconds};
         return tell(&told, user) != 0;
     };
-}
-
-lumel_map view_of(const Map& map)
-{
-    return {map.width, map.height, map.rgba.data()};
-}
-
-/// Numbers of a primitive's vertices in its mesh.
-void name_vertices(std::vector<Surface>& surfaces, const lumel_scene& scene)
-{
-    if (scene.vertices.empty())
-        return;
-    const std::vector<Instance> instances = scene.scene.instances();
-    for (Surface& surface : surfaces) {
-        const std::vector<std::uint32_t>& used =
-            scene.vertices[instances[surface.instance].mesh][surface.primitive];
-        for (std::uint32_t& vertex : surface.source_vertex)
-            vertex = used[vertex];
-    }
-}
-
-lumel_surface view_of(const Surface& surface)
-{
-    return {.instance = surface.instance,
-            .primitive = surface.primitive,
-            .back = surface.back ? 1 : 0,
-            .vertex_count = std::uint32_t(surface.source_vertex.size()),
-            .source_vertex = surface.source_vertex.data(),
-            .lightmap = surface.lightmap.empty() ? nullptr : surface.lightmap.front().data(),
-            .page = surface.page.empty() ? nullptr : surface.page.data(),
-            .triangle_count = std::uint32_t(surface.indices.size() / 3),
-            .indices = surface.indices.data(),
-            .texels_per_metre = surface.texels_per_metre};
-}
-
-std::unique_ptr<CBaked> result_of(Baked&& given, const lumel_scene& scene)
-{
-    auto result = std::make_unique<CBaked>();
-    result->baked = std::move(given);
-    Baked& baked = result->baked;
-    name_vertices(baked.surfaces, scene);
-    for (std::string& note : baked.notes)
-        note = in_c(std::move(note));
-    for (const Map& map : baked.directional)
-        result->directional.push_back(view_of(map));
-    for (const Surface& surface : baked.surfaces)
-        result->surfaces.push_back(view_of(surface));
-    for (const Page& page : baked.pages)
-        result->pages.push_back({page.x, page.y, page.side});
-    for (const std::string& note : baked.notes)
-        result->notes.push_back(note.c_str());
-    result->shown = {.map = view_of(baked.map),
-                     .directional_count = std::uint32_t(result->directional.size()),
-                     .directional = result->directional.data(),
-                     .surface_count = std::uint32_t(result->surfaces.size()),
-                     .surfaces = result->surfaces.data(),
-                     .page_count = std::uint32_t(result->pages.size()),
-                     .pages = result->pages.data(),
-                     .note_count = std::uint32_t(result->notes.size()),
-                     .notes = result->notes.data(),
-                     .texels_per_metre = baked.texels_per_metre,
-                     .error = baked.error,
-                     .eye_error = baked.eye_error,
-                     .visible_noise = baked.visible_noise,
-                     .shots = baked.shots,
-                     .seconds = baked.seconds,
-                     .interrupted = baked.interrupted ? 1 : 0,
-                     .internal = result.get()};
-    return result;
 }
 
 void read_probe(const Probe& from, lumel_probe& to)
@@ -254,6 +162,25 @@ LightmapFormat format_of(int format)
 }
 
 }  // namespace
+
+std::string in_c(std::string message)
+{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kNames = {{
+        {"BakeSettings::", "settings."},
+        {"AtlasSettings::", "settings."},
+        {"Daylight::", "daylight."},
+        {"Device::Device", "lumel_open_device"},
+        {"Scene::add_daylight", "lumel_add_daylight"},
+        {"Parts::all", "LUMEL_ALL_LIGHT"},
+        {"write_scene()", "lumel_write_scene()"},
+        {"needs a Device", "needs a device"},
+    }};
+    for (const auto& [from, to] : kNames)
+        for (std::size_t at = message.find(from); at != message.npos;
+             at = message.find(from, at + to.size()))
+            message.replace(at, from.size(), to);
+    return message;
+}
 
 void keep_message(const char* sentence) noexcept
 {

@@ -11,6 +11,8 @@
 
 namespace lumel::v0 {
 
+/// The message with names of lumel_c.h in place of those of lumel.h.
+std::string in_c(std::string message);
 /// Keeps the sentence, with names of lumel_c.h, for lumel_message().
 void keep_message(const char* sentence) noexcept;
 

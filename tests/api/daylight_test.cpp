@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "../support/temporary_folder.h"
-#include "../support/weather_text.h"
 #include "base/images/image_files.h"
 #include "base/json/json_file.h"
 #include "boxes.h"
+#include "few_days.h"
 #include "jobs/bake/bake.h"
 
 namespace lumel::v0 {
@@ -21,27 +20,8 @@ using namespace test;
 using support::WeatherOfHour;
 
 constexpr std::uint32_t kRays = 12;
-constexpr std::size_t kHoursOfDay = 24;
 /// Of daylight.json, which keeps five digits.
 constexpr double kRounding = 1e-4;
-
-/// The name of a new weather file.
-template <class Of>
-std::string weather_file(const lumel::test::TemporaryFolder& folder, const Of& of)
-{
-    std::string path = folder / "made.epw";
-    std::ofstream(path) << support::weather_text(of);
-    return path;
-}
-
-/// Light from 10 to 14 o'clock on each 30th day, with sun on every other of these.
-WeatherOfHour few_days(int hour)
-{
-    const int day = hour / int(kHoursOfDay), of_day = hour % int(kHoursOfDay);
-    if (day % 30 != 15 || of_day < 10 || of_day >= 14)
-        return {};
-    return {.direct = day % 60 == 15 ? 500.0 : 0.0, .diffuse = 100.0 + 10.0 * of_day};
-}
 
 /// The same days with the illuminance of sky and sun in the file.
 WeatherOfHour few_days_with_lux(int hour)
