@@ -28,8 +28,11 @@ export class LightmapPlugin implements GLTFLoaderPlugin {
     extendMaterialParams(index: number, params: Record<string, unknown>): Promise<void>;
 }
 
-/** Loads a scene.glb, sets the renderer's tone mapping and exposure for it, and finds its lamps. */
-export function loadLitScene(renderer: WebGLRenderer, url: string): Promise<GLTF & Lamps>;
+/**
+ * Loads a scene.glb, sets the renderer's tone mapping and exposure for it, and finds its lamps.
+ * dracoPath: of three's examples/jsm/libs/draco/gltf/, for --compress draco.
+ */
+export function loadLitScene(renderer: WebGLRenderer, url: string, dracoPath?: string): Promise<GLTF & Lamps>;
 
 /** The lamps of a scene that was loaded with LightmapPlugin. */
 export function lampsOf(renderer: WebGLRenderer, gltf: GLTF): Promise<Lamps>;

@@ -2,6 +2,7 @@
 
 import * as THREE from 'three';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
+import { DRACOLoader } from 'three/addons/loaders/DRACOLoader.js';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
@@ -29,11 +30,15 @@ export function makeDiffuse(gltf) {
     });
 }
 
-/** Loads a scene.glb and sets the renderer's exposure for it. The result also has the lamps, see lampsOf(). */
-export async function loadLitScene(renderer, url) {
+/**
+ * Loads a scene.glb and sets the renderer's exposure for it. The result also has the lamps, see lampsOf().
+ * dracoPath: of three's examples/jsm/libs/draco/gltf/, for --compress draco.
+ */
+export async function loadLitScene(renderer, url, dracoPath) {
     const loader = new GLTFLoader();
     loader.setKTX2Loader(new KTX2Loader().detectSupport(renderer));
     loader.setMeshoptDecoder(MeshoptDecoder); // for --compress meshopt
+    if (dracoPath) loader.setDRACOLoader(new DRACOLoader().setDecoderPath(dracoPath));
     loader.register((parser) => new LightmapPlugin(parser));
     const gltf = await loader.loadAsync(url);
     makeDiffuse(gltf); // to be left out where the scene has an environment map

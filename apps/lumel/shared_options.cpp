@@ -24,8 +24,8 @@ const Choices<LightmapFormat> kLightmapFormats = {{"ktx2", LightmapFormat::ktx2}
                                                   {"rgb9e5", LightmapFormat::rgb9e5},
                                                   {"png", LightmapFormat::png},
                                                   {"none", LightmapFormat::none}};
-const Choices<Compression> kCompressions = {{"none", Compression::none},
-                                            {"meshopt", Compression::meshopt}};
+const Choices<Compression> kCompressions = {
+    {"none", Compression::none}, {"meshopt", Compression::meshopt}, {"draco", Compression::draco}};
 const Choices<Quality> kQualities = {{"draft", kDraft}, {"good", kGood}, {"fine", kFine}};
 const Choices<ProgressStyle> kProgressStyles = {{"auto", ProgressStyle::automatic},
                                                 {"json", ProgressStyle::json},
@@ -253,8 +253,9 @@ void add_scene_file_options(Command& command, BakeOptions& options)
                  choice(options.compression, kCompressions,
                         {"--compress",
                          "",
-                         "Compression of vertices and indices in scene.glb, without loss: "
-                         "EXT_meshopt_compression (meshopt), which the viewer must read; or none",
+                         "Compression of vertices and indices in scene.glb, which the viewer must "
+                         "read: EXT_meshopt_compression, without loss (meshopt), "
+                         "KHR_draco_mesh_compression, rounded (draco); or none",
                          {},
                          "none"}),
                  {"--baked-size", "N",

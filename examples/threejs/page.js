@@ -9,6 +9,7 @@ const texelNames = new Map([
     [THREE.UnsignedInt5999Type, 'rgb9e5'],
     [THREE.UnsignedByteType, '8-bit'],
 ]);
+const dracoPath = '/modules/three/examples/jsm/libs/draco/gltf/';
 const asked = new URLSearchParams(location.search);
 
 // From a corner of the scene's box, where it has no camera.
@@ -52,7 +53,7 @@ async function draw() {
     renderer.setSize(width, height);
     document.body.append(renderer.domElement);
     const gltf = asked.has('baked') ? await loadAsItIs('/scene.glb')
-                                    : await loadLitScene(renderer, '/scene.glb');
+                                    : await loadLitScene(renderer, '/scene.glb', dracoPath);
     if (asked.has('map')) await bindLightmap(gltf, '/map.exr');
 
     const camera = cameraFor(gltf);

@@ -18,8 +18,8 @@ struct Corner {
 using Triangle = std::array<Corner, 3>;
 using Cell = std::array<std::int64_t, 3>;
 
-/// In the world; by material.
-std::map<std::string, std::vector<Triangle>> triangles_of(const Scene& scene)
+/// In the world; by material. set: of texture coordinates.
+std::map<std::string, std::vector<Triangle>> triangles_of(const Scene& scene, std::size_t set)
 {
     std::map<std::string, std::vector<Triangle>> all;
     for (const Instance& instance : scene.instances) {
@@ -36,7 +36,7 @@ std::map<std::string, std::vector<Triangle>> triangles_of(const Scene& scene)
                     triangle[k].normal =
                         p.normals.empty() ? glm::vec3(0.0f) : glm::normalize(turn * p.normals[v]);
                     triangle[k].texcoord =
-                        p.texcoords[0].empty() ? glm::vec2(0.0f) : p.texcoords[0][v];
+                        p.texcoords[set].empty() ? glm::vec2(0.0f) : p.texcoords[set][v];
                 }
                 all[key].push_back(triangle);
             }
@@ -110,7 +110,7 @@ std::size_t alone(const std::vector<Triangle>& from, const std::vector<Triangle>
 double area_of(const Scene& scene)
 {
     double sum = 0.0;
-    for (const auto& [key, triangles] : triangles_of(scene))
+    for (const auto& [key, triangles] : triangles_of(scene, 0))
         for (const Triangle& t : triangles)
             sum += 0.5 * glm::length(glm::cross(t[1].position - t[0].position,
                                                 t[2].position - t[0].position));
@@ -119,7 +119,7 @@ double area_of(const Scene& scene)
 
 void expect_twins(const Scene& plain, const Scene& packed, const TwinSteps& steps)
 {
-    const auto left = triangles_of(plain), right = triangles_of(packed);
+    const auto left = triangles_of(plain, steps.set), right = triangles_of(packed, steps.set);
     ASSERT_EQ(left.size(), right.size());
     for (const auto& [key, triangles] : left) {
         SCOPED_TRACE(key);

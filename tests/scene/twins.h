@@ -10,6 +10,7 @@ struct TwinSteps {
     float position = 0.0f;  ///< [m]
     float normal = 0.0f;    ///< distance of unit vectors
     float texcoord = 0.0f;
+    std::size_t set = 0;  ///< of texture coordinates: TEXCOORD_n
 };
 
 /// Expects that instances have the same names and materials, and that every triangle of one has a

@@ -11,7 +11,9 @@
 
 #include "base/core/error.h"
 #include "base/images/image_files.h"
+#include "results/files/vertex_gather.h"
 #include "scene/gltf/accessor.h"
+#include "scene/gltf/draco.h"
 #include "scene/gltf/extras.h"
 #include "scene/gltf/meshopt.h"
 #include "scene/gltf/page_parts.h"
@@ -399,8 +401,100 @@ std::size_t GlbBuilder::compress()
     return decoded;
 }
 
+/// Replaces the data of primitives by Draco streams where these are smaller.
+void GlbBuilder::pack_triangles()
+{
+    const GltfDocument plain{
+        .path = document_.path, .json = json, .buffers = {std::exchange(binary_, {})}};
+    const std::vector<PackedPrimitive> packed = pack_primitives(plain);
+    for (const PackedPrimitive& one : packed) {
+        Json& primitive = json["meshes"][one.mesh]["primitives"][one.primitive];
+        primitive["attributes"] = Json::object();
+        primitive.erase("indices");
+    }
+    free_unused(used_accessors(plain.json), used_views(plain.json));
+
+    // The other data; views of the same bytes stay shared.
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> written;
+    for (Json& view : json["bufferViews"]) {
+        if (!view.contains("byteOffset"))
+            continue;  // released, without data
+        const std::size_t offset = view["byteOffset"], length = view["byteLength"];
+        const auto [place, is_new] = written.try_emplace({offset, length});
+        if (is_new)
+            place->second = append(std::span(plain.buffers[0]).subspan(offset, length));
+        view["byteOffset"] = place->second;
+    }
+    for (const PackedPrimitive& one : packed)
+        add_packed(one);
+    trim("accessors", free_accessors_);
+    trim("bufferViews", free_views_);
+    if (!packed.empty())
+        for (const char* list : {"extensionsUsed", "extensionsRequired"})
+            json[list].push_back(kDracoExtension);
+}
+
+/// Empties the accessors and bufferViews of these that the JSON no longer refers to.
+void GlbBuilder::free_unused(const std::set<std::size_t>& accessors,
+                             const std::set<std::size_t>& views)
+{
+    const std::set<std::size_t> live_accessors = used_accessors(json);
+    for (const std::size_t accessor : accessors)
+        if (!live_accessors.contains(accessor)) {
+            json["accessors"][accessor] = kEmptyAccessor;
+            free_accessors_.insert(accessor);
+        }
+    const std::set<std::size_t> live_views = used_views(json);
+    for (const std::size_t view : views)
+        if (!live_views.contains(view)) {
+            json["bufferViews"][view] = kEmptyView;
+            free_views_.insert(view);
+        }
+}
+
+/// Removes free elements at the end of a list.
+void GlbBuilder::trim(const char* name, std::set<std::size_t>& free)
+{
+    Json& array = json[name];
+    while (!array.empty() && free.erase(array.size() - 1) > 0)
+        array.erase(array.size() - 1);
+}
+
+/// Adds a stream and accessors of what it decodes to.
+void GlbBuilder::add_packed(const PackedPrimitive& packed)
+{
+    const DracoMesh& mesh = packed.encoded.mesh;
+    Json extension = {{"bufferView", add_view(packed.encoded.stream, ViewTarget::none)},
+                      {"attributes", Json::object()}};
+    Json attributes = Json::object();
+    for (const PackedPrimitive::Attribute& attribute : packed.attributes) {
+        extension["attributes"][attribute.name] = attribute.id;
+        Json accessor = attribute.accessor;
+        for (const char* key : {"bufferView", "byteOffset", "sparse", "min", "max"})
+            accessor.erase(key);
+        accessor["count"] = mesh.points;
+        if (attribute.name == "POSITION") {
+            const DracoAttribute& values =
+                *std::ranges::find(mesh.attributes, attribute.id, &DracoAttribute::id);
+            add_bounds(accessor, values.type.value(), values.components, values.bytes,
+                       values.bytes.size() / mesh.points);
+        }
+        attributes[attribute.name] = add_accessor(std::move(accessor));
+    }
+    const bool is_short = mesh.points <= kShortIndexLimit;
+    Json& primitive = json["meshes"][packed.mesh]["primitives"][packed.primitive];
+    primitive["attributes"] = std::move(attributes);
+    primitive["indices"] =
+        add_accessor({{"componentType", int(is_short ? ComponentType::u16 : ComponentType::u32)},
+                      {"count", mesh.indices.size()},
+                      {"type", "SCALAR"}});
+    primitive["extensions"][kDracoExtension] = std::move(extension);
+}
+
 std::vector<std::uint8_t> GlbBuilder::finish(Compression compression)
 {
+    if (compression == Compression::draco)
+        pack_triangles();
     const std::size_t decoded = compression == Compression::meshopt ? compress() : 0;
     pad(binary_, 0);
     require_webp_images(json, is_webp_);

@@ -11,6 +11,7 @@
 
 #include "scene/gltf/compression.h"
 #include "scene/gltf/document.h"
+#include "scene/pack/draco_primitives.h"
 
 namespace lumel {
 
@@ -60,6 +61,10 @@ private:
     void copy_views();
     void embed_images(Pictures pictures);
     std::size_t compress();
+    void pack_triangles();
+    void free_unused(const std::set<std::size_t>& accessors, const std::set<std::size_t>& views);
+    void trim(const char* name, std::set<std::size_t>& free);
+    void add_packed(const PackedPrimitive& packed);
     std::size_t append(std::span<const std::uint8_t> bytes);
     std::size_t add_image(const std::string& name, const char* type,
                           std::span<const std::uint8_t> file);

@@ -9,8 +9,7 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kVertexAlignment = 4;      // per vertex
-constexpr std::size_t kShortIndexLimit = 65535;  // 65535 itself means restart
+constexpr std::size_t kVertexAlignment = 4;  // per vertex
 
 std::size_t stride_of(const AccessorData& data)
 {
@@ -65,26 +64,26 @@ void negate(ComponentType type, std::uint8_t* element, std::size_t c)
         negate_as<float>(element + c * 4);
 }
 
-void add_bounds(Json& accessor, const AccessorData& data, const std::vector<std::uint8_t>& bytes,
-                std::size_t stride)
+}  // namespace
+
+void add_bounds(Json& accessor, ComponentType type, std::size_t components,
+                std::span<const std::uint8_t> bytes, std::size_t stride)
 {
     Json low = Json::array(), high = Json::array();
-    for (std::size_t c = 0; c < data.components; ++c) {
-        double least = component(data.component_type, bytes.data(), c), most = least;
+    for (std::size_t c = 0; c < components; ++c) {
+        double least = component(type, bytes.data(), c), most = least;
         for (std::size_t at = stride; at < bytes.size(); at += stride) {
-            const double value = component(data.component_type, bytes.data() + at, c);
+            const double value = component(type, bytes.data() + at, c);
             least = std::min(least, value);
             most = std::max(most, value);
         }
-        const bool whole = data.component_type != ComponentType::f32;
+        const bool whole = type != ComponentType::f32;
         low.push_back(whole ? Json(std::int64_t(least)) : Json(least));
         high.push_back(whole ? Json(std::int64_t(most)) : Json(most));
     }
     accessor["min"] = low;
     accessor["max"] = high;
 }
-
-}  // namespace
 
 const AccessorData& VertexGather::data_of(std::size_t accessor)
 {
@@ -142,7 +141,7 @@ std::size_t VertexGather::add_gathered(std::size_t source, std::span<const std::
     gathered["count"] = vertices.size();
     gathered["bufferView"] = builder_.add_view(bytes, ViewTarget::vertices, stride);
     if (with_bounds)
-        add_bounds(gathered, data, bytes, stride);
+        add_bounds(gathered, data.component_type, data.components, bytes, stride);
     return builder_.add_accessor(std::move(gathered));
 }
 

@@ -16,6 +16,14 @@
 
 namespace lumel {
 
+/// Vertices from this number on need indices of 32 bits: 65535 itself means restart.
+inline constexpr std::size_t kShortIndexLimit = 65535;
+
+/// Sets min and max of an accessor: of the numbers in `bytes`, stored every `stride` bytes, not
+/// normalised.
+void add_bounds(Json& accessor, ComponentType type, std::size_t components,
+                std::span<const std::uint8_t> bytes, std::size_t stride);
+
 /// Adds accessors to a builder; each call returns an accessor's index. Equal arrays, such
 /// as those of a mesh under several nodes, are added once.
 class VertexGather {

@@ -39,8 +39,10 @@ inline constexpr std::array<EnumName<LightmapFormat>, 4> kWords<LightmapFormat> 
      {"png", LightmapFormat::png},
      {"none", LightmapFormat::none}}};
 template <>
-inline constexpr std::array<EnumName<Compression>, 2> kWords<Compression> = {
-    {{"none", Compression::none}, {"meshopt", Compression::meshopt}}};
+inline constexpr std::array<EnumName<Compression>, 3> kWords<Compression> = {
+    {{"none", Compression::none},
+     {"meshopt", Compression::meshopt},
+     {"draco", Compression::draco}}};
 
 template <>
 inline constexpr std::array<EnumName<Sides>, 4> kWords<Sides> = {{{"auto", Sides::automatic},

@@ -6,6 +6,7 @@ namespace lumel {
 enum class Compression {
     none,
     meshopt,  ///< EXT_meshopt_compression without loss, which the file then requires
+    draco,    ///< KHR_draco_mesh_compression with rounded vertices, which the file then requires
 };
 
 }  // namespace lumel

@@ -13,7 +13,6 @@ namespace lumel {
 
 namespace {
 
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr std::int64_t kTriangles = 4, kTriangleStrip = 5;
 constexpr std::size_t kAlignment = 4;  // alignment of vertices
 constexpr std::array<const char*, 4> kTypeNames = {"SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -46,7 +45,7 @@ bool has_plain_data(const JsonView& root, const JsonView& primitive)
     if (indices && !has_data(root, *indices))
         return false;
     const JsonView attributes = primitive.get("attributes");
-    const JsonView compressed = primitive.extension(kDraco)->get("attributes").as_object();
+    const JsonView compressed = primitive.extension(kDracoExtension)->get("attributes").as_object();
     for (const auto& [name, id] : compressed.json().items())
         if (!has_data(root, attributes.get(name.c_str())))
             return false;
@@ -92,7 +91,7 @@ public:
         std::map<std::size_t, std::vector<DracoPlace>> streams;
         root_.each("meshes", [&](const JsonView& mesh, std::size_t m) {
             mesh.each("primitives", [&](const JsonView& primitive, std::size_t p) {
-                const auto extension = primitive.extension(kDraco);
+                const auto extension = primitive.extension(kDracoExtension);
                 if (!extension || has_plain_data(root_, primitive))
                     return;
                 check_mode(primitive);
@@ -117,7 +116,8 @@ private:
 
     void decode(std::size_t view, const std::vector<DracoPlace>& places)
     {
-        const JsonView index = primitive_at(places[0]).extension(kDraco)->get("bufferView");
+        const JsonView index =
+            primitive_at(places[0]).extension(kDracoExtension)->get("bufferView");
         const Bytes stream = buffer_view_bytes(document_, index);
         const DracoMesh mesh = decode_draco_stream(index, stream, allowance_);
 
@@ -128,7 +128,8 @@ private:
         std::map<std::uint32_t, std::size_t> views;  // view of each attribute id
         for (const DracoPlace& place : places) {
             filled_.push_back({place, {}, view, mesh.indices.size()});
-            const JsonView names = primitive_at(place).extension(kDraco)->get("attributes");
+            const JsonView names =
+                primitive_at(place).extension(kDracoExtension)->get("attributes");
             for (const auto& [name, id] : names.as_object().json().items()) {
                 const DracoAttribute& attribute =
                     attribute_of(place, name, names.get(name.c_str()), mesh);
@@ -233,8 +234,8 @@ void decode_draco(GltfDocument& document)
         for (Json& mesh : document.json["meshes"])
             if (mesh.contains("primitives"))
                 for (Json& primitive : mesh["primitives"])
-                    erase_extension(primitive, kDraco);
-    forget_extension(document.json, kDraco);
+                    erase_extension(primitive, kDracoExtension);
+    forget_extension(document.json, kDracoExtension);
 }
 
 }  // namespace lumel

@@ -10,4 +10,7 @@ namespace lumel {
 /// Error{input}.
 void decode_draco(GltfDocument& document);
 
+/// The extension's name.
+inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+
 }  // namespace lumel

@@ -154,6 +154,11 @@ void mark_order(Json& primitive, const std::vector<std::uint32_t>& of_triangle)
     primitive[kExtras][kPart][kRuns] = std::move(runs);
 }
 
+bool is_part(const Json& primitive)
+{
+    return mark_of(primitive) != nullptr;
+}
+
 void erase_part_marks(Json& primitive)
 {
     if (mark_of(primitive))

@@ -24,6 +24,9 @@ void mark_part(Json& primitive, const PagePart& part);
 /// mesh order.
 void mark_order(Json& primitive, const std::vector<std::uint32_t>& of_triangle);
 
+/// True for a marked primitive.
+bool is_part(const Json& primitive);
+
 /// Removes these marks and those of join_pages().
 void erase_part_marks(Json& primitive);
 

@@ -13,6 +13,7 @@
 #include "../../support/temporary_folder.h"
 #include "base/core/error.h"
 #include "base/images/image_files.h"
+#include "conformance.h"
 #include "hand_atlas.h"
 #include "results/files/gltf_write.h"
 #include "results/files/gzip.h"
@@ -24,28 +25,9 @@ namespace lumel {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kConformance = support::data_path("gltf_conformance");
-
-std::vector<std::string> conformance_files()
-{
-    std::vector<std::string> files;
-    if (fs::exists(kConformance))
-        for (const auto& entry : fs::recursive_directory_iterator(kConformance))
-            if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb")
-                files.push_back(entry.path().string());
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
-std::optional<Scene> try_read(const std::string& path)
-{
-    try {
-        return read_gltf(path);
-    } catch (const Error&) {
-        return std::nullopt;
-    }
-}
+using test::conformance_files;
+using test::kConformance;
+using test::try_read;
 
 // Colour, emission and opacity at a corner, read as a renderer would.
 MaterialSample look(const Scene& scene, const Primitive& primitive, std::uint32_t vertex)
@@ -261,20 +243,6 @@ TEST(GltfWrite, EveryTriangleOfEveryLoadableFileComesBackInItsPlace)
     EXPECT_GT(tried, 100u);
 }
 
-/// corner_atlas() with the triangles of the file, which share vertices.
-Atlas shared_atlas(const Scene& scene)
-{
-    Atlas atlas = test::corner_atlas(scene);
-    for (Surface& surface : atlas.surfaces) {
-        const Primitive& primitive = test::primitive_of(scene, surface);
-        surface.indices = primitive.indices;
-        surface.source_vertex.resize(primitive.positions.size());
-        std::iota(surface.source_vertex.begin(), surface.source_vertex.end(), 0u);
-        surface.texcoord.resize(primitive.positions.size());
-    }
-    return atlas;
-}
-
 TEST(GltfWrite, CompressedGeometryIsThatOfThePlainFileByteForByte)
 {
     if (conformance_files().empty())
@@ -286,7 +254,7 @@ TEST(GltfWrite, CompressedGeometryIsThatOfThePlainFileByteForByte)
         const std::optional<Scene> scene = try_read(path);
         if (!scene)
             continue;
-        const Atlas atlas = shared_atlas(*scene);
+        const Atlas atlas = test::shared_atlas(*scene);
         const GltfDocument document = load_gltf_document(scene->path);
         const auto write = [&](const char* name, Compression compression) {
             write_scene_glb(folder / name, document, *scene, atlas, test::any_map(atlas),

@@ -3,6 +3,7 @@
 // identifies it. Nothing of the atlas room is needed.
 
 #include <cstdint>
+#include <numeric>
 
 #include "atlas/packing/atlas.h"
 #include "base/core/image.h"
@@ -41,6 +42,20 @@ inline const Primitive& primitive_of(const Scene& scene, const Surface& surface)
 {
     const Instance& instance = scene.instances.at(surface.instance);
     return scene.meshes.at(std::size_t(instance.mesh)).primitives.at(surface.primitive);
+}
+
+/// corner_atlas() with the triangles of the file, which share vertices.
+inline Atlas shared_atlas(const Scene& scene)
+{
+    Atlas atlas = corner_atlas(scene);
+    for (Surface& surface : atlas.surfaces) {
+        const Primitive& primitive = primitive_of(scene, surface);
+        surface.indices = primitive.indices;
+        surface.source_vertex.resize(primitive.positions.size());
+        std::iota(surface.source_vertex.begin(), surface.source_vertex.end(), 0u);
+        surface.texcoord.resize(primitive.positions.size());
+    }
+    return atlas;
 }
 
 /// A map that is covered everywhere and differs from texel to texel.
