@@ -35,8 +35,8 @@ function(find_package_of library result)
     set(${result} "${package}" PARENT_SCOPE)
 endfunction()
 
-# Packages that are compiled in as headers need their notices too.
-set(packages libcli11-dev nlohmann-json3-dev libglm-dev libvulkan-volk-dev libvulkan-dev libimgui-dev)
+include(${CMAKE_CURRENT_LIST_DIR}/LumelLicences.cmake)
+set(packages ${LUMEL_HEADER_PACKAGES})
 foreach(library ${libraries})
     file(COPY ${library} DESTINATION ${stage}/lib FOLLOW_SYMLINK_CHAIN)
     file(REAL_PATH ${library} real)
@@ -55,7 +55,7 @@ endforeach()
 
 # Pages for a browser have three.js in them, and what it reads textures with.
 set(modules ${CMAKE_CURRENT_LIST_DIR}/../build/npm/node_modules)
-foreach(module three ktx-parse)
+foreach(module ${LUMEL_PAGE_MODULES})
     if(EXISTS ${modules}/${module}/LICENSE)
         file(COPY_FILE ${modules}/${module}/LICENSE ${stage}/licences/${module}.txt)
     endif()
