@@ -1,5 +1,7 @@
 // A scene.glb with compressed geometry shows the light of the plain one.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -9,9 +11,11 @@
 
 #include "../support/source_folder.h"
 #include "../support/temporary_folder.h"
+#include "base/core/error.h"
 #include "base/core/files.h"
 #include "base/images/image_files.h"
 #include "jobs/bake/bake.h"
+#include "jobs/update/update.h"
 #include "solved.h"
 
 namespace lumel {
@@ -122,6 +126,34 @@ TEST(CompressedScene, HasTheLightOfThePlainOneAtEveryPoint)
         }
     }
     EXPECT_GT(compared, 1000u);
+}
+
+TEST(CompressedScene, ThatIsRoundedIsRefusedWhereTrianglesMustBeExact)
+{
+    const test::TemporaryFolder folder;
+    BakeOptions options;
+    options.atlas.size = 32;
+    options.solver.method = LinksOptions{.rays = Rays::host};
+    options.solver.max_shots = 12;
+    options.solver.target_error = 0.0;
+    options.preview_width = 0;
+    options.compression = Compression::draco;
+    const std::string scene = support::source_path("scenes/cornell-box.gltf");
+    const auto refusal = [](const auto& work) -> std::string {
+        try {
+            work();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::input);
+            return error.what();
+        }
+        return "nothing was refused";
+    };
+    bake(scene, folder / "out", options);
+    EXPECT_NE(refusal([&] { update(folder / "out", scene, {}); }).find("--compress draco"),
+              std::string::npos);
+    options.keep_links = true;
+    EXPECT_NE(refusal([&] { bake(scene, folder / "kept", options); }).find("--compress draco"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -40,6 +40,10 @@ void check_keep_links(const BakeOptions& options)
     if (options.keep_links && !std::holds_alternative<LinksOptions>(options.solver.method))
         throw Error(ErrorKind::input, "--keep-links with another solver",
                     "is not possible: only --solver links has links");
+    if (options.keep_links && options.compression == Compression::draco)
+        throw Error(ErrorKind::input, "--keep-links with --compress draco",
+                    "is not possible: stored links need the exact triangles of scene.glb; use "
+                    "--compress meshopt");
 }
 
 void check_links(const StoredLinks& links, const BakeRecord& baked, const std::string& path)

@@ -157,6 +157,15 @@ void check_paths(const std::string& folder, const std::string& scene_path)
                     "is the bake's own file; save the edited scene elsewhere, and keep this one");
 }
 
+/// An update finds what has changed by the triangles of scene.glb.
+void check_exact(const std::string& folder, const BakeRecord& baked)
+{
+    if (baked.compression == Compression::draco)
+        throw Error(ErrorKind::input, folder,
+                    "was baked with --compress draco, which rounds and reorders the triangles that "
+                    "an update compares; bake the scene again, with --compress meshopt or none");
+}
+
 }  // namespace
 
 UpdateSummary update(const std::string& folder, const std::string& scene_path,
@@ -168,6 +177,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     std::optional<ResultsLock> as_it_is(folder);
     BakeRecord baked = read_bake_record(folder);
     check_correctable(folder, baked);
+    check_exact(folder, baked);
     check_paths(folder, scene_path);
     check_light_files(baked.lights);
     if (light_settings(options.lights).empty())

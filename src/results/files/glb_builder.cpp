@@ -404,9 +404,13 @@ std::size_t GlbBuilder::compress()
 /// Replaces the data of primitives by Draco streams where these are smaller.
 void GlbBuilder::pack_triangles()
 {
-    const GltfDocument plain{
+    GltfDocument plain{
         .path = document_.path, .json = json, .buffers = {std::exchange(binary_, {})}};
     const std::vector<PackedPrimitive> packed = pack_primitives(plain);
+    if (packed.empty()) {
+        binary_ = std::move(plain.buffers[0]);
+        return;
+    }
     for (const PackedPrimitive& one : packed) {
         Json& primitive = json["meshes"][one.mesh]["primitives"][one.primitive];
         primitive["attributes"] = Json::object();
@@ -429,9 +433,8 @@ void GlbBuilder::pack_triangles()
         add_packed(one);
     trim("accessors", free_accessors_);
     trim("bufferViews", free_views_);
-    if (!packed.empty())
-        for (const char* list : {"extensionsUsed", "extensionsRequired"})
-            json[list].push_back(kDracoExtension);
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        json[list].push_back(kDracoExtension);
 }
 
 /// Empties the accessors and bufferViews of these that the JSON no longer refers to.
