@@ -17,22 +17,32 @@ import * as THREE from 'three';
 import { FullScreenQuad } from 'three/addons/postprocessing/Pass.js';
 import { halfMap } from './half_map.js';
 
-const places = 64; // of factors in the shader: lamps, as in src/lights/lamps.h; daylight may need more
+const mapsOfTexel = 4; // without a GPU, a lookup costs more than the arithmetic for four maps
 const largest = 65504; // half float
+const exponentOffset = 127 - 15 - 9; // from EXT_texture_shared_exponent with integer mantissas to float
 
 const vertexShader = 'in vec3 position; void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }';
-const head = `precision highp float; precision highp sampler2D; precision highp sampler2DArray;
+const head = `precision highp float; precision highp sampler2D; precision highp usampler2DArray;
 layout(location = 0) out vec4 made;`;
 
-const sumOfLamps = (count) => `${head}
-uniform sampler2DArray lamps;
-uniform vec3 gains[${count}];
-uniform int count;
+// Unpacks the words of half_map.js. The loop over layers is unrolled, because SwiftShader indexes arrays of uniforms
+// lane by lane.
+const sumOfLamps = (layers) => `${head}
+uniform usampler2DArray lamps;
+uniform float least;
+uniform vec3 gains[${layers * mapsOfTexel}];
+vec3 unpacked(uint word) {
+    vec3 mantissas = vec3(word & 511u, word >> 9 & 511u, word >> 18 & 511u);
+    return uintBitsToFloat((word >> 27) + ${exponentOffset}u << 23) * mantissas;
+}
 void main() {
     vec3 light = vec3(0.0);
-    for (int k = 0; k < count; ++k)
-        if (gains[k] != vec3(0.0)) light += gains[k] * texelFetch(lamps, ivec3(gl_FragCoord.xy, k), 0).rgb;
-    made = vec4(clamp(light, -${largest}.0, ${largest}.0), 1.0);
+    uvec4 words;
+${Array.from({ length: layers }, (_, layer) => `
+    words = texelFetch(lamps, ivec3(gl_FragCoord.xy, ${layer}), 0);
+    light += ${['x', 'y', 'z', 'w'].map((part, k) =>
+        `gains[${layer * mapsOfTexel + k}] * unpacked(words.${part})`).join(' + ')};`).join('')}
+    made = vec4(clamp(light, least, ${largest}.0), 1.0);
 }`;
 
 const fitOfDetails = `${head}
@@ -80,14 +90,19 @@ const pass = (fragmentShader, uniforms) => new FullScreenQuad(new THREE.RawShade
 const target = (width, height, count = 1) => new THREE.WebGLRenderTarget(width, height, { count,
     type: THREE.HalfFloatType, depthBuffer: false, magFilter: THREE.LinearFilter, minFilter: THREE.LinearFilter });
 
-// All lamps in one texture array.
+// All lamps in one texture array, four in a texel.
 function arrayOf(lamps, bytes, width, height, unit) {
-    const texels = new Uint32Array(width * height * lamps.length), each = bytes.length / lamps.length;
-    lamps.forEach(({ brightest }, k) => texels.set(
-        halfMap(bytes.subarray(k * each, (k + 1) * each), width, height, brightest, unit), k * width * height));
-    const array = new THREE.DataArrayTexture(texels, width, height, lamps.length);
-    array.format = THREE.RGBFormat;
-    array.type = THREE.UnsignedInt5999Type;
+    const layers = Math.ceil(lamps.length / mapsOfTexel), each = bytes.length / lamps.length;
+    const texels = new Uint32Array(width * height * layers * mapsOfTexel);
+    lamps.forEach(({ brightest }, k) => {
+        const words = halfMap(bytes.subarray(k * each, (k + 1) * each), width, height, brightest, unit);
+        const first = Math.floor(k / mapsOfTexel) * width * height * mapsOfTexel + k % mapsOfTexel;
+        words.forEach((word, i) => { texels[first + i * mapsOfTexel] = word; });
+    });
+    const array = new THREE.DataArrayTexture(texels, width, height, layers);
+    array.format = THREE.RGBAIntegerFormat;
+    array.type = THREE.UnsignedIntType;
+    array.internalFormat = 'RGBA32UI';
     array.needsUpdate = true;
     array.onUpdate = () => { array.image.data = null; }; // the GPU has them
     return array;
@@ -110,20 +125,22 @@ export class LampSum {
         [this.others, this.one, this.lit] = [0, 1, 2].map(() => target(width, height));
         this.maps = arrayOf(lamps, bytes, halfWidth, halfHeight, unit);
         const [slope, rest] = this.fit.textures;
-        const count = Math.max(places, lamps.length);
-        const unused = Array.from({ length: count - lamps.length }, () => new THREE.Vector3());
+        const layers = Math.ceil(lamps.length / mapsOfTexel);
+        const unused = Array.from({ length: layers * mapsOfTexel - lamps.length }, () => new THREE.Vector3());
         this.summed = this.gains.map((gain) => gain.clone());
-        this.sumPass = pass(sumOfLamps(count),
-            { lamps: this.maps, count: lamps.length, gains: [...this.summed, ...unused] });
+        this.sumPass = pass(sumOfLamps(layers),
+            { lamps: this.maps, least: -largest, gains: [...this.summed, ...unused] });
         this.fitPass = pass(fitOfDetails, { sum: this.sum.texture, whole: all.texture });
         this.detailPass = pass(withDetails, { slope, rest, details: whole, least: 0 });
         this.twoPass = pass(sumOfTwo,
             { others: this.others.texture, one: this.one.texture, gain: new THREE.Vector3() });
         this.owned = [all, this.sum, this.fit, this.others, this.one, this.lit, this.maps,
             ...[this.sumPass, this.fitPass, this.detailPass, this.twoPass].map(({ material }) => material)];
+        this.isCoarse = false; // what `texture` shows
         this.run([this.sumPass, all]);
         this.addAll();
-        this.texture = new THREE.ExternalTexture(renderer.properties.get(this.lit.texture).__webglTexture);
+        this.texture = new THREE.ExternalTexture();
+        this.show(this.lit);
         this.texture.channel = whole.channel;
         this.texture.flipY = false; // rows as those of `whole`
     }
@@ -142,9 +159,19 @@ export class LampSum {
         renderer.setRenderTarget(...before);
     }
 
+    // Lets `texture` show a target.
+    show({ texture }) {
+        this.texture.sourceTexture = this.renderer.properties.get(texture).__webglTexture;
+    }
+
+    // Sets the gains of the sum by gainOf(gain, index).
+    setGains(gainOf) {
+        this.gains.forEach((gain, index) => this.summed[index].copy(gainOf(gain, index)));
+    }
+
     // Light of all lamps by gainOf(gain, index), at full size. least: 0, or below it for a part of a sum.
     light(gainOf, into, least) {
-        this.gains.forEach((gain, index) => this.summed[index].copy(gainOf(gain, index)));
+        this.setGains(gainOf);
         this.detailPass.material.uniforms.least.value = least;
         this.run([this.sumPass, this.sum], [this.fitPass, this.fit], [this.detailPass, into]);
     }
@@ -152,6 +179,15 @@ export class LampSum {
     addAll() {
         this.light((gain) => gain, this.lit, 0);
         this.moving = -1; // others and one are out of date
+    }
+
+    // Adds the lamps at half the size, without the details of the full-size map.
+    addCoarsely() {
+        const { least } = this.sumPass.material.uniforms;
+        this.setGains((gain) => gain);
+        least.value = 0;
+        this.run([this.sumPass, this.sum]);
+        least.value = -largest;
     }
 
     addOne(index) {
@@ -174,16 +210,19 @@ export class LampSum {
         return this.gains.every(({ x, y, z }) => x === 1 && y === 1 && z === 1);
     }
 
-    /** Adds the lamps, if any has changed. */
-    refresh() {
+    /** Adds the lamps, if any has changed. coarse: at half the size, until the next call without it. */
+    refresh(coarse = false) {
         const changed = this.gains.map((_, index) => index).filter((index) =>
             !this.gains[index].equals(this.added[index]));
-        if (changed.length === 0) return;
+        if (changed.length === 0 && (coarse || !this.isCoarse)) return;
         // A lamp that has changed alone twice is one that a slider moves; two parts cost more than all at once.
-        if (changed.length === 1 && changed[0] === this.last) this.addOne(this.last);
+        if (coarse) this.addCoarsely();
+        else if (changed.length === 1 && changed[0] === this.last && !this.isCoarse) this.addOne(this.last);
         else this.addAll();
         this.last = changed.length === 1 ? changed[0] : -1;
         changed.forEach((index) => this.added[index].copy(this.gains[index]));
+        if (coarse !== this.isCoarse) this.show(coarse ? this.sum : this.lit);
+        this.isCoarse = coarse;
     }
 
     /** Texels of a rectangle, in half floats [height][width][4], in `unit`. */

@@ -27,6 +27,8 @@ async function probe(points, steps) {
     addEventListener('unhandledrejection', ({ reason }) => errors.push(String(reason)));
     const frame = () => new Promise((done) => requestAnimationFrame(done));
     const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
+    const frames = [];
+    new PerformanceObserver((list) => frames.push(...list.getEntriesByName('frame'))).observe({ type: 'measure' });
     const root = document.documentElement;
     while (!root.dataset.state) await pause(50);
 
@@ -83,24 +85,41 @@ async function probe(points, steps) {
     }
     const daylight = () => ({ ...document.getElementById('daylight')?.dataset,
         texts: [...document.querySelectorAll('#daylight output')].map((one) => one.textContent) });
-    // Time to work a control and have the canvas drawn.
+    // Time to work a control and have the canvas drawn, and what the page says of it.
     async function timed(step) {
         await frame();
         const before = performance.now();
         work(step);
         if (step.wait) await pause(step.wait);
         await frame(); // of the page
-        shown();
-        return performance.now() - before;
+        const moving = shown(), milliseconds = performance.now() - before;
+        const drawn = () => frames.find(({ startTime }) => startTime >= before);
+        while (!drawn()) await pause(10);
+        const { duration, detail: { coarse } } = drawn();
+        return { milliseconds, stated: duration, coarse, moving };
+    }
+    // Waits for the frame that is drawn when nothing moves, and for the readings after it.
+    async function rest() {
+        while (canvas.dataset.rests === 'false') await pause(10);
+    }
+    // Pixels at rest. The canvas is drawn again, because they can be read in that frame alone.
+    async function redrawn() {
+        const exposure = document.getElementById('exposure');
+        enter(exposure, exposure.value);
+        await frame();
+        return shown();
     }
 
     const found = { state: root.dataset.state, steps: [] };
     if (root.dataset.state === 'ready') {
+        await rest();
         readAt(points[0]);
         for (const step of [{}, ...steps]) {
-            const milliseconds = await timed(step);
+            const times = await timed(step);
+            if (!step.wait) await rest();
+            const colours = times.coarse ? await redrawn() : times.moving;
             const kept = reading.textContent; // of the last point, which has not been pointed at again
-            found.steps.push({ milliseconds, colours: shown(), kept, readings: points.map(readAt),
+            found.steps.push({ ...times, colours, kept, readings: points.map(readAt),
                 daylight: daylight() });
             await pause(250); // until the address has followed
             Object.assign(found.steps.at(-1), { hash: location.hash, rows: rows().map(shownOf), presets: presets() });

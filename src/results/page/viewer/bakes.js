@@ -6,6 +6,7 @@ import { canAdd } from '../../../../addons/three/lamp_sum.js';
 import { lampSurfaces } from '../../../../addons/three/lamp_surfaces.js';
 import { makeDiffuse } from '../../../../addons/three/lightmap.js';
 import { ErrorMap } from './errors.js';
+import { leaveOutGloss } from './gloss.js';
 import { Hours } from './hours.js';
 import { LampMap } from './lamp_map.js';
 import { readLightmap } from './lightmap.js';
@@ -17,23 +18,12 @@ async function unpack(text) {
     return new Response(packed.stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
 }
 
-// The texture of a material: its own page if the map is an array of pages.
-function pageOf(material, map) {
-    if (map.pagesAcross === 1) return map.texture;
-    const page = material.userData.lumel.page ?? 0, part = 1 / map.pagesAcross;
-    const texture = map.texture.clone();
-    texture.repeat.set(part, part);
-    texture.offset.set((page % map.pagesAcross) * part, Math.floor(page / map.pagesAcross) * part);
-    texture.updateMatrix();
-    return texture;
-}
-
 // Applies the lightmap to baked materials, and returns their objects.
 function bindLightmap(scene, map) {
     const lit = [];
     scene.traverse((object) => {
         if (!object.material?.userData.lumel?.lightmap) return;
-        object.material.lightMap = pageOf(object.material, map);
+        object.material.lightMap = map.textureOf(object.material.userData.lumel.page ?? 0);
         object.material.lightMapIntensity = map.unit; // [lx]
         lit.push(object);
     });
@@ -85,6 +75,7 @@ async function readBake(renderer, { name, report, glb, lightmap, unit, pages_acr
     if (daylight) map.setDaylight(daylight.hours.brightest);
     const lit = bindLightmap(gltf.scene, map);
     const switched = dimmed ? lampsIn(gltf.scene, lamps) : [];
+    for (const { material } of lit) material.onBeforeCompile = leaveOutGloss;
     return {
         name, report, map,
         errors: errorBytes.length > 0 ? new ErrorMap(errorBytes, map.width, map.height, leastError) : null,

@@ -42,9 +42,10 @@ export class LampMap extends Lightmap {
         return this.hours === 0 && this.sum.asBaked;
     }
 
-    /** Adds the lamps, if any has changed. */
-    refresh() {
-        this.sum.refresh();
+    /** Adds the lamps, if any has changed; coarse: at half the size, see LampSum. */
+    refresh(coarse) {
+        this.sum.refresh(coarse);
+        for (const texture of this.pages.values()) texture.sourceTexture = this.texture.sourceTexture;
     }
 
     /** As of Lightmap, of the lamps as they are set. */

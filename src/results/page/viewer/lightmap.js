@@ -28,6 +28,20 @@ export class Lightmap {
         this.width = texture.image.width;
         this.height = texture.image.height;
         this.words = texture.image.data;
+        this.pages = new Map(); // textures by page
+    }
+
+    /** Texture of a page: a part of the whole one. */
+    textureOf(page) {
+        if (this.pagesAcross === 1) return this.texture;
+        if (!this.pages.has(page)) {
+            const texture = this.texture.clone(), part = 1 / this.pagesAcross;
+            texture.repeat.set(part, part);
+            texture.offset.set((page % this.pagesAcross) * part, Math.floor(page / this.pagesAcross) * part);
+            texture.updateMatrix();
+            this.pages.set(page, texture);
+        }
+        return this.pages.get(page);
     }
 
     /** Irradiance in linear RGB of texels, as a function of column and row; LampMap takes a rectangle of them,

@@ -14,7 +14,7 @@ import { lightOver, surfaceAt } from './surface.js';
 import { walk } from './walk.js';
 
 const mostDrawn = 1024; // maximum side of a drawn lightmap [texels]
-const millisecondsToAtlas = 300; // without a change
+const slice = 8; // time of work at once, so that sliders stay smooth [ms]
 const byId = (id) => document.getElementById(id);
 
 function say(trouble) {
@@ -63,24 +63,36 @@ function addFacts(bakes) {
         section('Settings', bakes, (bake) => folded('All settings', settings(bake))));
 }
 
-// The lightmap in false colours, subsampled if large.
-function drawAtlas(canvas, map, scale) {
+// The lightmap in false colours, subsampled if large. Yields after each row.
+function* rowsOfAtlas(canvas, map, scale) {
     const step = Math.ceil(Math.max(map.width, map.height) / mostDrawn);
     const width = Math.ceil(map.width / step), height = Math.ceil(map.height / step);
-    Object.assign(canvas, { width, height });
-    const context = canvas.getContext('2d');
-    const picture = context.createImageData(width, height);
+    const picture = new ImageData(width, height);
     const light = map.reader(0, 0, map.width, map.height);
-    for (let y = 0; y < height; ++y)
+    for (let y = 0; y < height; ++y) {
         for (let x = 0; x < width; ++x) {
             const lux = luxOf(light(x * step, y * step));
             const colour = lux > 0 ? colourAt(scale.placeOf(lux)) : [0, 0, 0];
             picture.data.set([...colour, 255], 4 * (y * width + x));
         }
-    context.putImageData(picture, 0, 0);
+        yield;
+    }
+    Object.assign(canvas, { width, height });
+    canvas.getContext('2d').putImageData(picture, 0, 0);
 }
 
-// Lightmaps in false colours, with the light under the mouse. Returns a function that draws them again.
+// Works in slices of time. Returns a function that stops it.
+function inSlices(steps) {
+    let later = 0;
+    const work = () => {
+        for (const start = performance.now(); performance.now() < start + slice;) if (steps.next().done) return;
+        later = setTimeout(work);
+    };
+    later = setTimeout(work);
+    return () => clearTimeout(later);
+}
+
+// Lightmaps in false colours, with the light under the mouse. Returns functions that draw them again and that stop it.
 function addAtlases(bakes, scale, legend) {
     const drawn = [];
     byId('scene').after(section('Lightmap', bakes, (bake) => {
@@ -95,12 +107,17 @@ function addAtlases(bakes, scale, legend) {
             reading.textContent = `${valueText(lux, error)}${without} at column ${x}, row ${y}`;
             legend.draw({ lux });
         });
-        drawn.push(() => drawAtlas(canvas, bake.map, scale));
+        drawn.push(() => rowsOfAtlas(canvas, bake.map, scale));
         return element('div', { class: 'atlas' }, canvas, element('p', {}, reading));
     }));
-    const draw = () => drawn.forEach((one) => one());
+    let stops = [];
+    const stop = () => stops.forEach((one) => one());
+    const draw = () => {
+        stop();
+        stops = drawn.map((rows) => inSlices(rows()));
+    };
     draw();
-    return draw;
+    return { draw, stop };
 }
 
 const valueText = (lux, error) => error ? `${luxText(lux)} ± ${percentText(error)}` : luxText(lux);
@@ -185,29 +202,28 @@ function addRoom([bake]) {
     return room;
 }
 
-// Sliders of time and lamps. A moved one shows in the next frame; the whole lightmap follows when all rest.
-function addLights(stage, readAgain, drawAtlases, room) {
+// Sliders of time and lamps. A moved one shows in the next frame; readings and the whole lightmap follow at rest.
+function addLights(stage, readAgain, atlases, room) {
     const dimmed = stage.bakes.filter(({ lamps }) => lamps.length > 0);
     const daylit = stage.bakes.filter(({ daylight }) => daylight);
     if (dimmed.length + daylit.length === 0) {
         say('Neither lamps nor the time can be set: this browser cannot draw into textures of floating-point numbers.');
         return;
     }
-    let later = 0;
     let isOld = false, lamps = null; // until their light is drawn
-    stage.drawn = () => {
+    stage.rested = () => {
         if (!isOld) return;
         readAgain();
         if (lamps) room?.show(lamps.states, lamps.presets);
+        atlases.draw();
         isOld = false;
         lamps = null;
     };
     const changed = (moved) => {
         isOld = true;
         lamps ??= moved;
-        stage.draw();
-        clearTimeout(later);
-        later = setTimeout(drawAtlases, millisecondsToAtlas);
+        atlases.stop();
+        stage.move();
     };
     const address = new Address();
     const controls = element('div', { id: 'controls' });
@@ -233,13 +249,14 @@ async function open() {
     stage.show(bakes, scales);
     const legend = new Legend(document.querySelector('#legend canvas'), scales.lux);
     const size = new THREE.Box3().setFromObject(bakes[0].scene).getSize(new THREE.Vector3()).length();
-    walk(stage.canvas, stage.camera, size, () => stage.draw());
+    walk(stage.canvas, stage.camera, size, () => stage.move());
     addControls(stage, legend, scales);
     const readAgain = readUnderMouse(stage, legend);
-    const drawAtlases = addAtlases(bakes, scales.lux, legend);
+    const atlases = addAtlases(bakes, scales.lux, legend);
     const room = addRoom(packed);
-    if (packed.some(({ lamps }) => lamps)) addLights(stage, readAgain, drawAtlases, room);
+    if (packed.some(({ lamps }) => lamps)) addLights(stage, readAgain, atlases, room);
     stage.drawNow();
+    stage.rested?.();
     document.documentElement.dataset.state = 'ready';
 }
 

@@ -4,6 +4,10 @@ import * as THREE from 'three';
 import { exposureOf } from './exposure.js';
 import { shadeBySun } from './sun.js';
 
+const millisecondsToRest = 200; // without a change
+const slow = 50; // time of a frame from which on frames are coarse while something moves [ms]
+const coarsePixels = 0.5; // their width and height, relative to those of all others
+
 // Replacements for a fragment's surface colour × light. `light` is that of a white surface.
 const shownInstead = {
     light: 'outgoingLight = light;',
@@ -69,7 +73,14 @@ export class Stage {
         this.split = 0.5; // end of the first bake, relative to the width
         this.stops = 0;
         this.waiting = false;
-        this.drawn = null; // called after each frame
+        this.coarse = false; // of the next frame
+        this.isSlow = false;
+        this.isKnown = false; // isSlow: the first frame compiles shaders
+        this.moves = 0;
+        this.changed = 0; // time of the first change that the next frame shows [ms]
+        this.isTimed = false; // whether the next frame decides on isSlow
+        this.isLast = false; // whether nothing moves after the next frame
+        this.rested = null; // called after that frame
     }
 
     /** Shows bakes from readBakes(). scales: of false colours, of light and of errors. */
@@ -109,28 +120,63 @@ export class Stage {
 
     /** Draws in the browser's next frame. */
     draw() {
+        this.coarse = false;
+        this.drawNext();
+    }
+
+    /** As draw(), of what goes on moving: coarsely if frames take long, then in full when it rests. */
+    move() {
+        this.coarse = this.isSlow;
+        this.isTimed = true;
+        this.isLast = false;
+        ++this.moves;
+        this.canvas.dataset.rests = false;
+        clearTimeout(this.later);
+        this.later = setTimeout(() => this.rest(), millisecondsToRest);
+        this.drawNext();
+    }
+
+    rest() {
+        this.isTimed = this.coarse || !this.isKnown;
+        this.isKnown = true;
+        this.isLast = true;
+        this.draw();
+    }
+
+    drawNext() {
+        this.changed ||= performance.now();
         if (this.waiting) return;
         this.waiting = true;
         requestAnimationFrame(() => {
             this.waiting = false;
+            const { isLast } = this;
             this.drawNow();
-            this.drawn?.();
+            if (isLast) this.rested?.();
         });
     }
 
     resize() {
         const { clientWidth, clientHeight } = this.canvas;
         if (clientWidth === 0) return;
-        this.renderer.setPixelRatio(window.devicePixelRatio);
+        this.setPixels();
         this.renderer.setSize(clientWidth, clientHeight, false);
         this.camera.aspect = clientWidth / clientHeight;
         this.camera.updateProjectionMatrix();
         this.draw();
     }
 
+    setPixels() {
+        const ratio = window.devicePixelRatio * (this.coarse ? coarsePixels : 1);
+        if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+    }
+
     /** Draws the bakes, each in its part of the width, with the exposure of the first. */
     drawNow() {
-        for (const { map } of this.bakes) map.refresh?.();
+        this.setPixels();
+        for (const { map, sun } of this.bakes) {
+            map.refresh?.(this.coarse);
+            sun?.setCoarse(this.coarse);
+        }
         const { clientWidth: width, clientHeight: height } = this.canvas;
         // A white material with irradiance H sends H / π, and shows as AgX of exposure × H.
         this.renderer.toneMappingExposure = Math.PI * exposureOf(this.bakes[0]) * 2 ** this.stops;
@@ -142,6 +188,27 @@ export class Stage {
             this.renderer.setScissor(left, 0, across, height);
             this.renderer.render(bake.scene, this.camera);
         });
+        this.timeFrame();
+    }
+
+    // States the time from a change until the GPU has drawn it, and whether anything still moves.
+    timeFrame() {
+        const { coarse, isTimed, isLast, moves } = this, start = this.changed || performance.now();
+        Object.assign(this, { changed: 0, isTimed: false, isLast: false });
+        const gl = this.renderer.getContext(), fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        gl.flush();
+        const wait = () => {
+            if (gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) {
+                setTimeout(wait);
+                return;
+            }
+            gl.deleteSync(fence);
+            performance.clearMeasures('frame');
+            const { duration } = performance.measure('frame', { start, end: performance.now(), detail: { coarse } });
+            if (isTimed && !coarse) this.isSlow = duration > slow;
+            if (isLast && moves === this.moves) this.canvas.dataset.rests = true;
+        };
+        setTimeout(wait);
     }
 
     /** Surface at a position of the canvas, from its top left corner [CSS pixels]; none where no light is baked. */

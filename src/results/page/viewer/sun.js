@@ -1,8 +1,10 @@
 // Direct sun: lights with shadow maps for display, and rays for reading its light.
 
 import * as THREE from 'three';
+import { leaveOutGloss } from './gloss.js';
 
 const mapSides = { small: 2048, large: 4096 }; // of shadow maps [texels]
+const coarseShare = 0.5; // of these sides, while something moves
 const large = 20; // diagonal of a scene from which shadow maps are large [m]
 // Four bilinear lookups at corners of a square, which reach 1.5 texels to each side. Less than `least` counts as dark,
 // so that shadows are about a texel larger: else light would leak into the corners of rooms, along outlines of walls.
@@ -12,6 +14,9 @@ const offset = { normal: 2, depth: 0.5 }; // [texels]
 const layers = { opaque: 1, glass: 2 }; // that shadow maps show; cameras show 0
 const paneReach = 0.1; // distance within which panes of glass belong together [m]
 const triangles = { quick: 4000, probed: 8 }; // scene in which 64 rays take 20 ms at most; samples of a pane
+// Writes depth alone: all that shadow maps of opaque surfaces need. The materials of three.js write a colour too.
+const depthAlone = new THREE.ShaderMaterial({ colorWrite: false, fragmentShader: 'void main() {}',
+    vertexShader: 'void main() { gl_Position = projectionMatrix * ( modelViewMatrix * vec4( position, 1.0 ) ); }' });
 const rayOffset = 1e-5; // relative to the diagonal
 
 const filtered = `vec2 step = ${filter.reach} / shadowMapSize;
@@ -30,6 +35,10 @@ const facingSun = ['vec4 shadowWorldPosition;', `vec4 shadowWorldPosition;
         if ( dot( vec3( toSun[ 0 ].z, toSun[ 1 ].z, toSun[ 2 ].z ), shadowWorldNormal ) > 0.0 )
             shadowWorldNormal = - shadowWorldNormal;
     #endif`];
+// Only surfaces that face the sun look up its shadow.
+const ifFacing = ['directLight.color *= ( directLight.visible && receiveShadow ) ? getShadow( directionalShadowMap',
+    `directLight.color *= ( receiveShadow && dot( geometryNormal, directLight.direction ) > 0.0
+        && directLight.color != vec3( 0.0 ) ) ? getShadow( directionalShadowMap`];
 const reflected = `void reflectSun( const in IncidentLight sun, const in vec3 position, const in vec3 normal,
     const in vec3 view, const in vec3 coat, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
     ReflectedLight own = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
@@ -51,8 +60,10 @@ const edited = (shader, part, ...edits) => shader.replace(`#include <${part}>`,
 export function shadeBySun(shader) {
     shader.vertexShader = edited(edited(shader.vertexShader, 'shadowmap_pars_vertex', atRims),
         'shadowmap_vertex', facingSun);
-    shader.fragmentShader = edited(edited(shader.fragmentShader, 'shadowmap_pars_fragment', atRims,
-        [/vec2 texelSize[^;]*;[^]*?\) \* 0\.2;/, filtered]), 'lights_physical_pars_fragment', [/$/, reflected]);
+    shader.fragmentShader = edited(edited(edited(shader.fragmentShader, 'shadowmap_pars_fragment', atRims,
+        [/vec2 texelSize[^;]*;[^]*?\) \* 0\.2;/, filtered]), 'lights_physical_pars_fragment', [/$/, reflected]),
+    'lights_fragment_begin', ifFacing);
+    leaveOutGloss(shader);
 }
 
 /** Transmitted share of light by channel; null if the material is opaque. */
@@ -116,6 +127,7 @@ export class Sun {
         this.quick = this.occluders.reduce((sum, { geometry: { index, attributes } }) =>
             sum + (index ?? attributes.position).count / 3, 0) <= triangles.quick;
         const glass = this.occluders.filter(({ isGlass }) => isGlass);
+        this.coarse = false;
         this.tint = glass.length > 0 ? this.tintOfPanes(glass) : [0, 0, 0];
         // Glass stops the first light; the second, which has its colour, passes.
         this.lights = [[layers.opaque, layers.glass], [layers.opaque]].slice(0, glass.length > 0 ? 2 : 1)
@@ -128,22 +140,39 @@ export class Sun {
         if (!geometry.attributes.normal) geometry.computeVertexNormals(); // for the offset in shadow maps
         mesh.castShadow = mesh.receiveShadow = true;
         mesh.layers.enable(occluder.isGlass ? layers.glass : layers.opaque);
+        if (!(material.alphaTest > 0)) mesh.customDepthMaterial = depthAlone;
         material.shadowSide = THREE.DoubleSide; // Lumel's surfaces stop light from both sides
         material.onBeforeCompile = shadeBySun;
     }
 
     lightOn(scene, shown) {
         const light = new THREE.DirectionalLight(0xffffff, 0), { shadow } = light;
-        const side = this.size > large ? mapSides.large : mapSides.small;
         light.castShadow = true;
         this.box.getCenter(light.target.position);
         shadow.autoUpdate = false;
         shadow.needsUpdate = true;
-        shadow.mapSize.set(side, side);
+        shadow.mapSize.setScalar(this.mapSide);
         shadow.camera.layers.disableAll();
         for (const layer of shown) shadow.camera.layers.enable(layer);
         scene.add(light, light.target);
         return light;
+    }
+
+    get mapSide() {
+        return (this.size > large ? mapSides.large : mapSides.small) * (this.coarse ? coarseShare : 1);
+    }
+
+    /** Whether shadow maps that have to be drawn again have fewer texels. Each of the two sizes keeps its maps. */
+    setCoarse(coarse) {
+        if (this.coarse === coarse || coarse && !this.lights[0].shadow.needsUpdate) return;
+        this.coarse = coarse;
+        for (const light of this.lights) {
+            const { shadow } = light, { map } = shadow;
+            shadow.map = light.userData.otherMap ?? null; // three.js makes what is missing
+            light.userData.otherMap = map;
+            shadow.mapSize.setScalar(this.mapSide);
+            this.fit(light);
+        }
     }
 
     // Mean transmitted share of panes of glass: of the light through all surfaces of a pane.
