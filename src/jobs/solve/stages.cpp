@@ -107,7 +107,7 @@ void Stages::note_times(const gpu::StageTimes& times)
     std::stable_sort(kernels.begin(), kernels.end(),
                      [](const auto& a, const auto& b) { return a.second > b.second; });
     for (const auto& [kernel, ms] : kernels)
-        note(fmt::format("\"{}\" took {:.3f} s on the device", kernel, ms / 1000.0));
+        note(fmt::format("\"{}\" took {:.3f} s", kernel, ms / 1000.0));
 }
 
 void Stages::note_arrays()

@@ -20,6 +20,8 @@ constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
 constexpr float kNoiseSpreadIndirect = 1.5f, kNoiseSpreadDirect = 1.0f, kLocalCaution = 3.0f;
 /// The multiple where the wide window's signal, with the second caution, tells of no detail.
 constexpr float kLoneCaution = 5.0f, kTellingCaution = 0.75f;
+/// Side of cells whose light chance alone can change much [lumels].
+constexpr int kFewLumels = 2;
 /// Radius of the window in deviations.
 constexpr float kGainRadius = 2.5f;
 
@@ -217,7 +219,10 @@ std::vector<float> gains_of(const FilterChart& chart, const FitLevel<Count>& lev
     for (int y = 0; y < level.height; ++y)
         for (int x = 0; x < level.width; ++x) {
             const std::size_t cell = level.at(x, y);
-            const float strongest = strongest_about(own, level.width, level.height, x, y, bell);
+            const float strongest =
+                level.side > kFewLumels
+                    ? 0.0f
+                    : strongest_about(own, level.width, level.height, x, y, bell);
             gains[cell] = gain_of(cells[cell], next[cell], strongest, rule, caution);
         }
     return gains;
