@@ -125,9 +125,9 @@ float strongest_about(const std::vector<Moments>& cells, int width, int height, 
     float most = 0.0f;
     for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, height - 1); ++ny)
         for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, width - 1); ++nx) {
-            const auto squared = std::size_t((nx - x) * (nx - x) + (ny - y) * (ny - y));
+            const int squared = (nx - x) * (nx - x) + (ny - y) * (ny - y);
             const std::size_t cell = std::size_t(ny) * std::size_t(width) + std::size_t(nx);
-            most = std::max(most, cells[cell].signal * bell[squared]);
+            most = std::max(most, cells[cell].signal * bell[std::size_t(squared)]);
         }
     return most;
 }
