@@ -255,8 +255,7 @@ async function open() {
     const atlases = addAtlases(bakes, scales.lux, legend);
     const room = addRoom(packed);
     if (packed.some(({ lamps }) => lamps)) addLights(stage, readAgain, atlases, room);
-    stage.drawNow();
-    stage.rested?.();
+    stage.open();
     document.documentElement.dataset.state = 'ready';
 }
 

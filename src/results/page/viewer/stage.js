@@ -73,6 +73,7 @@ export class Stage {
         this.split = 0.5; // end of the first bake, relative to the width
         this.stops = 0;
         this.waiting = false;
+        this.isOpen = false; // whether the first picture is drawn
         this.coarse = false; // of the next frame
         this.isSlow = false;
         this.isKnown = false; // isSlow: the first frame compiles shaders
@@ -124,8 +125,16 @@ export class Stage {
         this.drawNext();
     }
 
+    /** Draws the first picture, at rest. */
+    open() {
+        this.drawNow();
+        this.rested?.();
+        this.isOpen = true;
+    }
+
     /** As draw(), of what goes on moving: coarsely if frames take long, then in full when it rests. */
     move() {
+        if (!this.isOpen) return;
         this.coarse = this.isSlow;
         this.isTimed = true;
         this.isLast = false;
@@ -195,6 +204,7 @@ export class Stage {
     timeFrame() {
         const { coarse, isTimed, isLast, moves } = this, start = this.changed || performance.now();
         Object.assign(this, { changed: 0, isTimed: false, isLast: false });
+        if (!this.isOpen) return; // shaders are compiled
         const gl = this.renderer.getContext(), fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
         gl.flush();
         const wait = () => {
