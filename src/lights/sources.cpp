@@ -572,6 +572,7 @@ Receiver receiver_of(const WorldLumels& world, std::size_t i)
 {
     const WorldLumel& lumel = world[i];
     Receiver receiver{{glm::vec3(kInfinite), glm::vec3(-kInfinite)},
+                      lumel.centre,
                       lumel.flat ? lumel.normal : glm::vec3(0.0f)};
     for (const Facet* facet = world.begin(lumel); facet != world.end(lumel); ++facet)
         for (int c = 0; c < facet->count; ++c) {
@@ -643,13 +644,14 @@ float LightSources::sampling_weight(std::size_t index, const Receiver& receiver)
     const float apart = std::max(glm::distance(at, source.centre) - reach, 0.0f);
     // Within the bounding radius, uses the light at half of it.
     const float squared = std::max(apart * apart, 0.25f * reach * reach);
-    const float here =
-        float(source.power) / squared * cosine_towards(at, receiver.normal, source.box, apart);
+    const float here = float(source.power) / squared *
+                       cosine_towards(receiver.point, receiver.normal, source.box, apart);
     if (!(here > 0.0f))
         return 0.0f;
     if (source.kind == Kind::lamp)
         return here * lamp_weight(source, receiver, apart);
-    return here / kPi * cosine_towards(source.centre, source.normal, receiver.box, apart);
+    const glm::vec3& on_source = triangles_[source.first].corner[0];
+    return here / kPi * cosine_towards(on_source, source.normal, receiver.box, apart);
 }
 
 }  // namespace lumel

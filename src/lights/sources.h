@@ -27,15 +27,17 @@ struct SourceSample {
 
 /// Where light is received, for sampling weights.
 struct Receiver {
-    Box box;  ///< around its points [m]
-    /// Unit; the box then lies in a plane, and only light from above it counts. 0: from all sides.
+    Box box;          ///< around its points [m]
+    glm::vec3 point;  ///< one of them [m]
+    /// Unit; all points then lie in a plane, and only light from above it counts. 0: from all
+    /// sides.
     glm::vec3 normal{0.0f};
 };
 Receiver receiver_of(const WorldLumels& world, std::size_t lumel);
 /// A point, whose normal may be 0.
 inline Receiver receiver_at(const glm::vec3& position, const glm::vec3& normal)
 {
-    return {{position, position}, normal};
+    return {{position, position}, position, normal};
 }
 
 /// Lights of a scene that count as sources.

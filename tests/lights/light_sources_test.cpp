@@ -9,6 +9,7 @@
 #include "../support/closed_forms.h"
 #include "../support/lamps.h"
 #include "../support/quadrature.h"
+#include "atlas/prepare/solve_scene.h"
 #include "lit_point.h"
 
 namespace lumel {
@@ -86,7 +87,7 @@ TEST(LightSources, APlateThatTurnsItsBackSendsNothing)
     EXPECT_EQ(mean_of_samples(sources, 0, upward()), glm::dvec3(0.0));
 }
 
-/// Plates and lamps of all kinds, at random.
+/// Parallelograms, triangles and lamps of all kinds, at random.
 Scene any_lights(std::mt19937& random)
 {
     std::uniform_real_distribution<float> place(-2.0f, 2.0f), angle(0.1f, 1.5f);
@@ -99,6 +100,9 @@ Scene any_lights(std::mt19937& random)
         plate.edge_v = somewhere();
         plate.emission = glm::vec3(1.0f);
         support::add_quad(scene, plate);
+        Material material;
+        material.emitted = glm::vec3(1.0f);
+        support::add_mesh(scene, {somewhere(), somewhere(), somewhere()}, {0, 1, 2}, material);
     }
     for (int k = 0; k < 4; ++k)
         for (const auto kind : {PunctualLight::Kind::point, PunctualLight::Kind::spot,
@@ -132,6 +136,34 @@ TEST(LightSources, HaveASamplingWeightWhereverTheirLightArrives)
         }
     }
     EXPECT_GT(without, dark / 2) << "half of those whose light does not arrive";
+}
+
+TEST(LightSources, HaveASamplingWeightOnLumelsAtTheRimsOfTriangles)
+{
+    Scene scene;
+    support::add_mesh(scene, {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}},
+                      {0, 1, 2}, Material());
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> place(-0.2f, 1.0f);
+    for (int k = 0; k < 200; ++k)
+        scene.lights.push_back(support::make_lamp(PunctualLight::Kind::point, 1.0f,
+                                                  {place(random), place(random), place(random)}));
+    const SolveScene prepared(scene, AtlasOptions{.size = 8});
+    const LightSources sources(prepared.scene, prepared.surfaces, prepared.extent());
+    const WorldLumels world(prepared.scene, prepared.rays, prepared.lumels);
+    const RayOrigins starts(world, nullptr, false);
+    int lit = 0;
+    for (std::size_t i = 0; i < world.size(); ++i)
+        for (std::size_t s = 0; s < sources.count(); ++s) {
+            bool is_lit = false;
+            support::for_square(4, [&](const glm::vec2& at) {
+                const RayOrigin start = starts.start(i, at);
+                is_lit |= sources.sample(s, start, at).irradiance.g > 0.0f;
+            });
+            lit += is_lit ? 1 : 0;
+            EXPECT_TRUE(!is_lit || sources.sampling_weight(s, receiver_of(world, i)) > 0.0f);
+        }
+    EXPECT_GT(lit, 0);
 }
 
 TEST(LightSources, LampsSendTheirIntensityByTheSquareOfTheDistanceAndTheCosine)

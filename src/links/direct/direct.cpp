@@ -171,7 +171,7 @@ void DirectEstimator::sample_lights(const RayOrigin& start, float size, std::uin
     }
     // A few, selected by sampling weight.
     const Box around = Box{start.position, start.position}.grown(0.5f * size);
-    const Receiver receiver{around, start.geometric};
+    const Receiver receiver{around, start.position, start.geometric};
     std::vector<float> running(count);
     float sum = 0.0f;
     for (std::uint32_t s = 0; s < count; ++s)
