@@ -1,6 +1,4 @@
 // [Arv95] J. Arvo. Stratified Sampling of Spherical Triangles. SIGGRAPH 1995.
-// [CEK18] A. Conty Estevez, C. Kulla. Importance Sampling of Many Lights with Adaptive Tree
-//         Splitting. HPG 2018.
 // [TCE05] J. Talbot, D. Cline, P. Egbert. Importance Resampling for Global Illumination. EGSR 2005.
 
 #include "lights/sources.h"
@@ -40,9 +38,6 @@ constexpr int kMeanSide = 6;
 constexpr double kBright = 8.0, kBrightShare = 0.03;
 /// Unit normals closer than this [rad] differ only by rounding.
 constexpr float kSameNormal = 1e-4f;
-/// Minimum cosines and intensities in sampling weights, relative to the most: they are those of
-/// bounds or of one direction, and others may have more.
-constexpr float kLeastGuess = 1.0f / 16.0f;
 /// Half angle [rad] or ratio of radius to distance below which a source is small.
 constexpr float kSmallAngle = 0.02f;
 
@@ -566,92 +561,6 @@ SourceSample LightSources::from_sky(const RayOrigin& start, const glm::vec2& at)
     if (sky.density > 0.0f)
         sample.irradiance = sky.radiance * (start.cosine(sky.direction) / sky.density);
     return sample;
-}
-
-Receiver receiver_of(const WorldLumels& world, std::size_t i)
-{
-    const WorldLumel& lumel = world[i];
-    Receiver receiver{{glm::vec3(kInfinite), glm::vec3(-kInfinite)},
-                      lumel.centre,
-                      lumel.flat ? lumel.normal : glm::vec3(0.0f)};
-    for (const Facet* facet = world.begin(lumel); facet != world.end(lumel); ++facet)
-        for (int c = 0; c < facet->count; ++c) {
-            receiver.box.low = glm::min(receiver.box.low, facet->corner[c]);
-            receiver.box.high = glm::max(receiver.box.high, facet->corner[c]);
-        }
-    return receiver;
-}
-
-namespace {
-
-/// Height of the highest point of a box over a plane [m].
-float height_over(const glm::vec3& point, const glm::vec3& normal, const Box& box)
-{
-    const glm::vec3 half = 0.5f * (box.high - box.low);
-    return glm::dot(normal, box.centre() - point) + glm::dot(glm::abs(normal), half);
-}
-
-/// Bound on the cosine at a plane towards a box at a distance; 0: the box is below it. normal: 0
-/// for a plane that faces all sides.
-float cosine_towards(const glm::vec3& point, const glm::vec3& normal, const Box& box,
-                     float distance)
-{
-    if (normal == glm::vec3(0.0f))
-        return 1.0f;
-    const float height = height_over(point, normal, box);
-    if (!(height > 0.0f))
-        return 0.0f;
-    return height < distance ? std::max(height / distance, kLeastGuess) : 1.0f;
-}
-
-}  // namespace
-
-/// Bound on the light of a lamp, relative to that of its brightest direction. apart: distance at
-/// least [m].
-float LightSources::lamp_weight(const Source& source, const Receiver& receiver, float apart) const
-{
-    const PunctualLight& light = scene_->lights[source.first];
-    if (light.range > 0.0f && apart >= light.range)
-        return 0.0f;
-    const glm::vec3 offset = receiver.box.centre() - source.centre;
-    const float distance = glm::length(offset), reach = source.radius + receiver.box.radius();
-    if (!(distance > reach))
-        return 1.0f;
-    const glm::vec3 direction = offset / distance;
-    if (light.kind == PunctualLight::Kind::spot) {
-        const float from_axis = std::acos(std::clamp(
-            glm::dot(direction, -glm::normalize(glm::vec3(light.transform[2]))), -1.0f, 1.0f));
-        if (from_axis - std::asin(reach / distance) > light.outer_cone + kSameNormal)
-            return 0.0f;
-    }
-    const double here = luminance(intensity_towards(*scene_, light, direction));
-    return std::max(float(here / source.power), kLeastGuess);
-}
-
-float LightSources::sampling_weight(std::size_t index, const Receiver& receiver) const
-{
-    const Source& source = sources_[index];
-    const glm::vec3 at = receiver.box.centre();
-    if (source.kind == Kind::sky)
-        return float(source.power);
-    if (source.kind == Kind::sun) {
-        const PunctualLight& sun = scene_->lights[source.first];
-        const glm::vec3 towards = glm::normalize(glm::vec3(sun.transform[2]));
-        const Box disc = Box{towards, towards}.grown(std::sin(sun.angle));
-        return float(source.power) * cosine_towards(glm::vec3(0.0f), receiver.normal, disc, 1.0f);
-    }
-    const float reach = source.radius + receiver.box.radius();
-    const float apart = std::max(glm::distance(at, source.centre) - reach, 0.0f);
-    // Within the bounding radius, uses the light at half of it.
-    const float squared = std::max(apart * apart, 0.25f * reach * reach);
-    const float here = float(source.power) / squared *
-                       cosine_towards(receiver.point, receiver.normal, source.box, apart);
-    if (!(here > 0.0f))
-        return 0.0f;
-    if (source.kind == Kind::lamp)
-        return here * lamp_weight(source, receiver, apart);
-    const glm::vec3& on_source = triangles_[source.first].corner[0];
-    return here / kPi * cosine_towards(on_source, source.normal, receiver.box, apart);
 }
 
 }  // namespace lumel

@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/input_error.h"
 #include "../support/source_folder.h"
 #include "../support/temporary_folder.h"
-#include "base/core/error.h"
 #include "base/core/files.h"
 #include "base/images/image_files.h"
 #include "jobs/bake/bake.h"
@@ -86,15 +86,21 @@ float difference(const LitTriangle& a, const LitTriangle& b, std::size_t turn)
     return most;
 }
 
-TEST(CompressedScene, HasTheLightOfThePlainOneAtEveryPoint)
+BakeOptions quick_bake(int size)
 {
-    const test::TemporaryFolder folder;
     BakeOptions options;
-    options.atlas.size = 128;
+    options.atlas.size = size;
     options.solver.method = LinksOptions{.rays = Rays::host};
     options.solver.max_shots = 12;
     options.solver.target_error = 0.0;
     options.preview_width = 0;
+    return options;
+}
+
+TEST(CompressedScene, HasTheLightOfThePlainOneAtEveryPoint)
+{
+    const test::TemporaryFolder folder;
+    BakeOptions options = quick_bake(128);
     const std::string scene = support::source_path("scenes/room.gltf");
     bake(scene, folder / "plain", options);
     options.compression = Compression::draco;
@@ -131,28 +137,17 @@ TEST(CompressedScene, HasTheLightOfThePlainOneAtEveryPoint)
 TEST(CompressedScene, ThatIsRoundedIsRefusedWhereTrianglesMustBeExact)
 {
     const test::TemporaryFolder folder;
-    BakeOptions options;
-    options.atlas.size = 32;
-    options.solver.method = LinksOptions{.rays = Rays::host};
-    options.solver.max_shots = 12;
-    options.solver.target_error = 0.0;
-    options.preview_width = 0;
+    BakeOptions options = quick_bake(32);
     options.compression = Compression::draco;
     const std::string scene = support::source_path("scenes/cornell-box.gltf");
-    const auto refusal = [](const auto& work) -> std::string {
-        try {
-            work();
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), ErrorKind::input);
-            return error.what();
-        }
-        return "nothing was refused";
-    };
     bake(scene, folder / "out", options);
-    EXPECT_NE(refusal([&] { update(folder / "out", scene, {}); }).find("--compress draco"),
-              std::string::npos);
+    EXPECT_NE(
+        test::input_error_of([&] { update(folder / "out", scene, {}); }).find("--compress draco"),
+        std::string::npos);
     options.keep_links = true;
-    EXPECT_NE(refusal([&] { bake(scene, folder / "kept", options); }).find("--compress draco"),
+    EXPECT_NE(test::input_error_of([&] {
+                  bake(scene, folder / "kept", options);
+              }).find("--compress draco"),
               std::string::npos);
 }
 

@@ -25,7 +25,7 @@ constexpr std::size_t kMostLamps = 64, kMostCameras = 16, kOfLumels = 4096;
 constexpr std::uint32_t kPair = 0;
 constexpr float kAnyDistance = std::numeric_limits<float>::infinity();
 
-/// What rays meet first.
+/// Counts first hits on single-sided backs.
 class FirstHits {
 public:
     explicit FirstHits(const SolveScene& prepared)
@@ -76,11 +76,13 @@ FirstHits hits_of_light(const SolveScene& prepared)
                           double(kRays));
         }
     }
-    const WorldLumels world(scene, prepared.rays, prepared.lumels);
     std::vector<std::size_t> emissive;
-    for (std::size_t i = 0; i < world.size(); ++i)
+    for (std::size_t i = 0; i < prepared.lumels.lumels.size(); ++i)
         if (prepared.lumels.lumels[i].emission != glm::vec3(0.0f))
             emissive.push_back(i);
+    if (emissive.empty())
+        return hits;
+    const WorldLumels world(scene, prepared.rays, prepared.lumels);
     const std::size_t step = emissive.size() / kOfLumels + 1;
     for (std::size_t n = 0; n < emissive.size(); n += step) {
         const std::size_t i = emissive[n];

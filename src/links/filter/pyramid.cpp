@@ -18,9 +18,9 @@ constexpr float kGainSpread = 3.0f, kFinestGainSpread = 3.6f;
 /// Deviations of the window for local noise [cells], of indirect and of direct light. A detail
 /// above this multiple of that noise is taken for light.
 constexpr float kNoiseSpreadIndirect = 1.5f, kNoiseSpreadDirect = 1.0f, kLocalCaution = 3.0f;
-/// The multiple where the wide window's signal, with the second caution, tells of no detail.
+/// That multiple where the wide window has no signal above kTellingCaution × its noise.
 constexpr float kLoneCaution = 5.0f, kTellingCaution = 0.75f;
-/// Side of cells whose light chance alone can change much [lumels].
+/// Side up to which the noise of one cell can pass for signal [lumels].
 constexpr int kFewLumels = 2;
 /// Radius of the window in deviations.
 constexpr float kGainRadius = 2.5f;
@@ -116,8 +116,8 @@ float wiener(float signal, float noise)
     return signal + noise > 0.0f ? signal / (signal + noise) : 1.0f;
 }
 
-/// The most that a cell, or one next to it, adds to the signal of a window about it. Of many cells
-/// few are bright in all estimates by chance, and must not tell of themselves. bell: weights by
+/// The most that a cell, or one next to it, adds to the signal of a window about it. Among many
+/// cells, chance makes a few bright in all estimates; they would pass for detail. bell: weights by
 /// squared distance.
 float strongest_about(const std::vector<Moments>& cells, int width, int height, int x, int y,
                       const std::array<float, 3>& bell)
@@ -208,11 +208,10 @@ std::vector<float> gains_of(const FilterChart& chart, const FitLevel<Count>& lev
         }
     for (std::size_t cell = 0; cell < cells.size(); ++cell)
         octaves[cell] /= std::max(cells[cell].count, 1.0f);
-    const std::vector<Moments> own = cells;
     std::vector<Moments> next = cells;
     blur(next, level.width, level.height, rule.noise_spread);
-    cells = averaged(cells, octaves, level.width, level.height,
-                     level.side == 1 ? kFinestGainSpread : kGainSpread);
+    const std::vector<Moments> wide = averaged(cells, octaves, level.width, level.height,
+                                               level.side == 1 ? kFinestGainSpread : kGainSpread);
     std::vector<float> gains(cells.size());
     const std::array<float, 3> bell = {1.0f, bell_at(1.0f, rule.noise_spread),
                                        bell_at(2.0f, rule.noise_spread)};
@@ -222,8 +221,8 @@ std::vector<float> gains_of(const FilterChart& chart, const FitLevel<Count>& lev
             const float strongest =
                 level.side > kFewLumels
                     ? 0.0f
-                    : strongest_about(own, level.width, level.height, x, y, bell);
-            gains[cell] = gain_of(cells[cell], next[cell], strongest, rule, caution);
+                    : strongest_about(cells, level.width, level.height, x, y, bell);
+            gains[cell] = gain_of(wide[cell], next[cell], strongest, rule, caution);
         }
     return gains;
 }

@@ -31,7 +31,7 @@ constexpr double kTangentStep = 1.0 / (1 << 12);
 /// Of octahedral normals: off by 0.02 degrees at most.
 constexpr int kNormalBits = 14;
 
-/// Draco computes steps as floats, which hold whole numbers of so many bits.
+/// Draco counts steps in floats, which are exact up to 2^24.
 constexpr int kMaxGridBits = 24;
 constexpr std::size_t kMaxComponents = 4;
 constexpr std::int64_t kTriangleList = 4;
