@@ -190,6 +190,7 @@ public:
 
     struct Near {
         LinkEnd end;
+        glm::vec3 weight;
         const NearLight& light;
         std::span<const NearShare> shares;
     };
@@ -200,7 +201,8 @@ public:
         while (share_ < row_.shares.size() && row_.shares[share_].near == index)
             ++share_;
         const std::size_t n = near_++;
-        return {row_.near[n].end, row_.near_light[n], row_.shares.subspan(first, share_ - first)};
+        return {row_.near[n].end, row_.near[n].weight(), row_.near_light[n],
+                row_.shares.subspan(first, share_ - first)};
     }
 
 private:
@@ -216,10 +218,11 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
                    std::vector<float>(parts.count(), 0.0f)};
     const std::vector<char> unknown = unknown_parts(work, parts, numbers, links);
     std::vector<char> loses(work.order.size(), 0);
+    std::vector<float> returned(parts.count(), 0.0f);
     for_each_row(work, parts, links, [&](const LinkRow& row, std::uint32_t i) {
         const std::uint32_t first = parts.first(i);
         struct Count {
-            float rays = 0.0f, weights = 0.0f;
+            float rays = 0.0f, weights = 0.0f, returned = 0.0f;
             bool is_all = true;
         };
         std::array<Count, kMaxParts> counts;
@@ -229,10 +232,12 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
             const std::uint32_t leaves = row.leaves(parts, i, k);
             const float weight = row.weight(k);
             LinkEnd end = row.ends[k];
+            float passed = 0.0f;
             const bool is_near = end.number() == LinkNumbers::kNear;
             if (is_near) {
                 const NearLinks::Near near = nears.next();
                 end = near.end;
+                passed = std::max({near.weight.r, near.weight.g, near.weight.b});
                 found = near_light(reflected, near.light, near.shares);
             }
             if (end.number() == numbers.hidden() ||
@@ -248,6 +253,8 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
             }
             counts[leaves].rays += 1.0f;
             counts[leaves].weights += weight;
+            if (numbers.is_part(end.number()))
+                counts[leaves].returned += weight * passed;
             const LaneLight<Lanes>& light = is_near ? found : reflected.at(end, found);
             for (std::size_t lane = 0; lane < Lanes; ++lane)
                 sum.light[(first + leaves) * Lanes + lane] +=
@@ -256,9 +263,13 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
         for (std::uint32_t p = first; p < parts.end(i); ++p) {
             const Count& count = counts[p - first];
             sum.rays[p] += count.is_all ? count.rays : count.weights;
+            returned[p] += count.returned;
         }
     });
     for (std::size_t p = 0; p < parts.count(); ++p) {
+        // Weights of guided rays equal their number only in the mean: in a gap, more would make
+        // light grow from sweep to sweep.
+        sum.rays[p] = std::max(sum.rays[p], returned[p]);
         const LaneLight<Lanes> sky = reflected.of_sky(links.sky[p]);
         for (std::size_t lane = 0; lane < Lanes; ++lane)
             sum.light[p * Lanes + lane] =

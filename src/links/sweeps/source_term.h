@@ -27,7 +27,7 @@ struct SourceTerm {
     /// to it.
     std::vector<glm::vec4> light;
     /// [P] Σ of the weights of rays that count: not those to sub-lumels without any. Where all
-    /// count, their number.
+    /// count, their number; but at least the weights of near links.
     std::vector<float> rays;
     bool is_closed = false;  ///< all rays hit reflecting surfaces
 

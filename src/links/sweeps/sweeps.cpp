@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/core/error.h"
 #include "base/core/parallel.h"
 #include "links/sweeps/light_change.h"
 
@@ -114,6 +115,9 @@ LinkSolver::Swept LinkSolver::run(Sweeps& sweeps, const System& system, double r
         bool is_done = true, is_slow = false;
         for (std::size_t lane = 0; lane < Lanes; ++lane) {
             const double size = change[lane].size();
+            if (!std::isfinite(size))
+                throw Error(ErrorKind::input, "light",
+                            "grows without bound over guided rays; send them evenly (--guide off)");
             // Changes that shrink by a factor q leave q / (1 - q) of the last as residual. The
             // first change does not: it is all light in the first round, and noise of new rays
             // in later ones.

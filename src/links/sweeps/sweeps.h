@@ -35,8 +35,8 @@ public:
     /// X [P] [lx]; starts from `received` unless it is empty. residual: RMS of the light left out,
     /// relative to each sub-lumel's own. least_factor: minimum assumed factor between changes of
     /// successive sweeps: that of other links of the same scene, since noise hides how slowly the
-    /// level of the light converges where `received` is nearly solved. Throws Error{input} if the
-    /// light of a closed room is never absorbed.
+    /// level of the light converges where `received` is nearly solved. Throws Error{input} if light
+    /// grows without bound, as in a closed room that absorbs none.
     Swept solve(const LinkTable& links, const SourceTerm& source, double residual,
                 std::vector<glm::vec3>& received, double least_factor = 0.0) const;
 
