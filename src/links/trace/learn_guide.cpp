@@ -1,8 +1,10 @@
 // LinkRadiosity's guide: from where the first round's rays brought light to groups of neighbours.
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "base/core/frame.h"
 #include "base/core/luminance.h"
@@ -19,30 +21,27 @@ constexpr std::size_t kMaxGroup = 64, kMinGroup = 16;
 /// In brighter rooms rays stay uniform: the weights of a lumel's links sum to 1 only in the mean,
 /// which light that is reflected for long would amplify.
 constexpr double kBrightestGuided = 0.9;
+/// Of cube_side().
+constexpr std::size_t kCubeSides = 6;
 /// Blocks of links per task.
 constexpr std::size_t kGuideBlocksPerTask = 4;
 
-/// By their numbers in an order.
-struct LumelRange {
-    std::size_t first, last;
-};
-
-/// Runs of lumels that face the same way, in equal parts.
-std::vector<LumelRange> groups_of(const WorldLumels& world, std::span<const std::uint32_t> lumels)
+/// Those of `lumels` that face the same way, in equal parts: places in the list.
+std::vector<std::vector<std::size_t>> groups_of(const WorldLumels& world,
+                                                std::span<const std::uint32_t> lumels)
 {
-    std::vector<LumelRange> groups;
-    for (std::size_t first = 0; first < lumels.size();) {
-        const int side = cube_side(world[lumels[first]].normal);
-        std::size_t last = first + 1;
-        while (last < lumels.size() && cube_side(world[lumels[last]].normal) == side)
-            ++last;
-        const std::size_t parts = (last - first + kMaxGroup - 1) / kMaxGroup;
+    std::array<std::vector<std::size_t>, kCubeSides> facing;
+    for (std::size_t n = 0; n < lumels.size(); ++n)
+        facing[std::size_t(cube_side(world[lumels[n]].normal))].push_back(n);
+    std::vector<std::vector<std::size_t>> groups;
+    for (const std::vector<std::size_t>& all : facing) {
+        const std::size_t parts = (all.size() + kMaxGroup - 1) / kMaxGroup;
         for (std::size_t part = 0; part < parts; ++part)
-            groups.push_back({first + (last - first) * part / parts,
-                              first + (last - first) * (part + 1) / parts});
-        first = last;
+            groups.emplace_back(all.begin() + std::ptrdiff_t(all.size() * part / parts),
+                                all.begin() + std::ptrdiff_t(all.size() * (part + 1) / parts));
     }
-    std::erase_if(groups, [](const LumelRange& one) { return one.last - one.first < kMinGroup; });
+    std::erase_if(groups,
+                  [](const std::vector<std::size_t>& one) { return one.size() < kMinGroup; });
     return groups;
 }
 
@@ -54,7 +53,7 @@ struct LinkRadiosity::SentLight {
 };
 
 struct LinkRadiosity::LearntGroup {
-    std::size_t first, last;  ///< lumels, in work_.order
+    std::vector<std::uint32_t> lumels;
     RayGuide::Table table;
 };
 
@@ -108,9 +107,9 @@ void LinkRadiosity::add_moments(std::uint32_t i, std::uint32_t k, const LinkRow&
 std::vector<LinkRadiosity::LearntGroup>
 LinkRadiosity::learn_block(std::size_t b, const std::array<SentLight, kSolutions>& sent) const
 {
-    const std::size_t first = b * kLinkBlock;
+    const std::size_t begin = b * kLinkBlock;
     const auto lumels =
-        std::span(work_.order).subspan(first, std::min(kLinkBlock, work_.order.size() - first));
+        std::span(work_.order).subspan(begin, std::min(kLinkBlock, work_.order.size() - begin));
     std::array<std::vector<LinkRow>, kSolutions> rows;
     for (std::uint32_t k = 0; k < kSolutions; ++k) {
         LinkRows all(links_[k]->rounds.front()[b]);
@@ -118,13 +117,16 @@ LinkRadiosity::learn_block(std::size_t b, const std::array<SentLight, kSolutions
             rows[k].push_back(all.next(parts_->is_cut(i)));
     }
     std::vector<LearntGroup> learnt;
-    for (const LumelRange& group : groups_of(work_.world, lumels)) {
+    for (const std::vector<std::size_t>& group : groups_of(work_.world, lumels)) {
         GuideMoments moments;
-        for (std::uint32_t k = 0; k < kSolutions; ++k)
-            for (std::size_t n = group.first; n < group.last; ++n)
+        std::vector<std::uint32_t> members;
+        for (const std::size_t n : group) {
+            members.push_back(lumels[n]);
+            for (std::uint32_t k = 0; k < kSolutions; ++k)
                 add_moments(lumels[n], k, rows[k][n], sent[k], moments);
+        }
         if (const std::optional<RayGuide::Table> table = moments.find())
-            learnt.push_back({first + group.first, first + group.last, *table});
+            learnt.push_back({std::move(members), *table});
     }
     return learnt;
 }
@@ -148,8 +150,8 @@ bool LinkRadiosity::learn_guide()
                 guide_.group.assign(work_.order.size(), 0);
                 guide_.tables.push_back(RayGuide::uniform());
             }
-            for (std::size_t o = group.first; o < group.last; ++o)
-                guide_.group[work_.order[o]] = std::uint32_t(guide_.tables.size());
+            for (const std::uint32_t i : group.lumels)
+                guide_.group[i] = std::uint32_t(guide_.tables.size());
             guide_.tables.push_back(group.table);
         }
     return !guide_.empty();
