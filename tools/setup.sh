@@ -8,14 +8,14 @@ build_packages="g++ cmake ninja-build pkg-config glslc libvulkan-dev libvulkan-v
     libtbb-dev libembree-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev zlib1g-dev
     libmeshoptimizer-dev libdraco-dev libwebp-dev libglfw3-dev libimgui-dev
     libgl1-mesa-dri"
-test_packages="$build_packages vulkan-validationlayers libgtest-dev xvfb xdotool
+test_packages="$build_packages vulkan-validationlayers libgtest-dev xvfb xdotool libopenmpi-dev openmpi-bin
     python3-dev python3-numpy python3-pip python3-pybind11 python3-setuptools python3-wheel mypy"
 fuzz_packages="clang libclang-rt-dev"
 ci_packages="$test_packages clang-format clang-tidy"
 
 # What proves each package where there is no dpkg to ask: a command or a header, or one of several.
 package_commands="g++:g++ cmake:cmake ninja-build:ninja pkg-config:pkg-config glslc:glslc
-    xvfb:Xvfb xdotool:xdotool clang:clang++ clang-format:clang-format clang-tidy:clang-tidy"
+    xvfb:Xvfb xdotool:xdotool openmpi-bin:mpirun clang:clang++ clang-format:clang-format clang-tidy:clang-tidy"
 package_headers="libvulkan-dev:vulkan/vulkan.h libvulkan-volk-dev:volk.h libglm-dev:glm/glm.hpp
     libopenexr-dev:OpenEXR/ImfHeader.h libpng-dev:png.h libzstd-dev:zstd.h libstb-dev:stb/stb_image.h
     libopenblas-pthread-dev:cblas.h libtbb-dev:tbb/parallel_for.h libembree-dev:embree4/rtcore.h,embree3/rtcore.h
@@ -23,7 +23,7 @@ package_headers="libvulkan-dev:vulkan/vulkan.h libvulkan-volk-dev:volk.h libglm-
     nlohmann-json3-dev:nlohmann/json.hpp zlib1g-dev:zlib.h
     libmeshoptimizer-dev:meshoptimizer.h libdraco-dev:draco/compression/mesh/mesh_sequential_decoder.h
     libwebp-dev:webp/decode.h libglfw3-dev:GLFW/glfw3.h
-    libimgui-dev:imgui/imgui.h libgtest-dev:gtest/gtest.h python3-dev:Python.h"
+    libimgui-dev:imgui/imgui.h libgtest-dev:gtest/gtest.h libopenmpi-dev:mpi.h python3-dev:Python.h"
 
 say() { echo "lumel: $*" >&2; }
 die() { say "$*"; exit 1; }
@@ -63,8 +63,8 @@ missing_by_probe() {
         echo vulkan-validationlayers
     command -v g++ >/dev/null || return 0
     for pair in $package_headers; do
-        # Without Python's packages their test skips.
-        [[ " $* " == *" ${pair%%:*} "* && $pair != python3-* ]] || continue
+        # Without Python's packages or MPI their tests skip; mpi.h is not where compilers look.
+        [[ " $* " == *" ${pair%%:*} "* && $pair != python3-* && $pair != libopenmpi-* ]] || continue
         headers=${pair#*:}
         source+="#if !(__has_include(<${headers//,/>) || __has_include(<}>))"$'\n'"${pair%%:*}"$'\n'"#endif"$'\n'
     done
