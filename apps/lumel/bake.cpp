@@ -13,13 +13,13 @@
 
 namespace lumel {
 
-int run(const BakeArguments& arguments)
+int run(const BakeArguments& arguments, Ranks* ranks)
 {
     if (arguments.page)
         check_viewer();
     const auto work = [&](const ProgressFunction& progress) {
         const BakeSummary summary =
-            bake(arguments.scene, arguments.folder, arguments.options, progress);
+            bake(arguments.scene, arguments.folder, arguments.options, progress, ranks);
         if (arguments.page)
             write_page(page_in(arguments.folder), std::array{arguments.folder});
         std::string error;

@@ -2,6 +2,7 @@
 // One function per subcommand, one file each. They return the exit code and throw Error.
 
 #include "arguments.h"
+#include "base/ranks/ranks.h"
 
 namespace lumel {
 
@@ -15,7 +16,8 @@ inline constexpr int kExitOutput = 4;
 /// The page that a bake's folder holds.
 std::string page_in(const std::string& folder);
 
-int run(const BakeArguments& arguments);
+/// ranks: that share the bake; null: none.
+int run(const BakeArguments& arguments, Ranks* ranks = nullptr);
 int run(const UpdateArguments& arguments);
 int run(const RelightArguments& arguments);
 int run(const WhyArguments& arguments);

@@ -35,6 +35,7 @@ void watch_interrupts()
     watch(SIGINT);
     watch(SIGTERM);
     watch(SIGHUP);
+    watch(SIGUSR1);  // which mpirun passes on, and Slurm sends before a job's time is over
 }
 
 bool interrupted()

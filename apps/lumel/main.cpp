@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "base/core/error.h"
+#include "base/core/log.h"
+#include "base/ranks/ranks.h"
 #include "commands.h"
 #include "interrupt.h"
 
@@ -24,16 +28,66 @@ int exit_code(ErrorKind kind)
     case ErrorKind::output:
         return kExitOutput;
     case ErrorKind::stopped:
-        return interrupt_exit_code();
+        return interrupted() ? interrupt_exit_code() : kExitDone;  // else another rank was stopped
     }
     return kExitUnexpected;
 }
 
+/// How the program ends after an exception.
+struct Failure {
+    int code;
+    std::string sentence;
+};
+
 /// Whatever went wrong fits one line.
-int fail(int code, std::string sentence)
+Failure in_one_line(Failure failure)
 {
-    std::replace(sentence.begin(), sentence.end(), '\n', ' ');
-    std::fprintf(stderr, "error: %s\n", sentence.c_str());
+    std::ranges::replace(failure.sentence, '\n', ' ');
+    return failure;
+}
+
+Failure failure_of(const std::exception_ptr& thrown)
+{
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const Error& error) {
+        const char* const before = error.kind() == ErrorKind::stopped ? "" : "error: ";
+        return {exit_code(error.kind()), before + std::string(error.what())};
+    } catch (const std::bad_alloc&) {
+        return {kExitDevice,
+                "error: not enough memory; try fewer --texels-per-metre or a smaller --size"};
+    } catch (const std::exception& error) {
+        return {kExitUnexpected, std::string("error: unexpected: ") + error.what()};
+    }
+}
+
+int run_command(int count, char** values)
+{
+    const Arguments arguments = parse_arguments(count, values);
+    const int code = std::visit([](const auto& given) { return run(given); }, arguments.of_command);
+    if (std::fflush(stdout) != 0)
+        throw Error(ErrorKind::output, "", "standard output cannot be written");
+    return code;
+}
+
+/// Runs as one of the processes that share a bake. Only the first writes and talks.
+int run_rank(Ranks& ranks, int count, char** values)
+{
+    std::optional<LogCapture> silence;
+    if (!ranks.is_first())
+        silence.emplace();
+    const Arguments arguments = parse_arguments(count, values);
+    const auto* given = std::get_if<BakeArguments>(&arguments.of_command);
+    if (!given)
+        throw Error(ErrorKind::input, "mpirun",
+                    "can start lumel bake only; run other commands without it");
+    BakeArguments own = *given;
+    if (!ranks.is_first()) {
+        own.page = false;
+        own.talk = {.quiet = true, .progress = ProgressStyle::none};
+    }
+    const int code = run(own, &ranks);
+    std::fflush(stdout);
     return code;
 }
 
@@ -41,23 +95,21 @@ int fail(int code, std::string sentence)
 
 int main(int count, char** values)
 {
+    std::unique_ptr<Ranks> ranks;
+    int code = kExitDone;
     try {
-        const Arguments arguments = parse_arguments(count, values);
-        const int code =
-            std::visit([](const auto& given) { return run(given); }, arguments.of_command);
-        if (std::fflush(stdout) != 0)
-            return fail(kExitOutput, "standard output cannot be written");
-        return code;
-    } catch (const Error& error) {
-        if (error.kind() == ErrorKind::stopped) {
-            std::fprintf(stderr, "%s\n", error.what());
-            return exit_code(error.kind());
-        }
-        return fail(exit_code(error.kind()), error.what());
-    } catch (const std::bad_alloc&) {
-        return fail(kExitDevice,
-                    "not enough memory; try fewer --texels-per-metre or a smaller --size");
-    } catch (const std::exception& error) {
-        return fail(kExitUnexpected, std::string("unexpected: ") + error.what());
+        ranks = started_ranks(LUMEL_VERSION);
+        if (ranks)
+            ranks->together([&] { code = run_rank(*ranks, count, values); });
+        else
+            code = run_command(count, values);
+    } catch (...) {
+        const Failure failure = in_one_line(failure_of(std::current_exception()));
+        if (!ranks || ranks->speaks())
+            std::fprintf(stderr, "%s\n", failure.sentence.c_str());
+        code = failure.code;
     }
+    if (ranks)
+        ranks->finish(code);
+    return code;
 }

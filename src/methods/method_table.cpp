@@ -26,7 +26,7 @@ namespace {
 std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits& limits,
                                const LinksOptions& own)
 {
-    return std::make_unique<LinkRadiosity>(in.device, *in.scene, own, limits, in.parts);
+    return std::make_unique<LinkRadiosity>(in.device, *in.scene, own, limits, in.parts, in.ranks);
 }
 
 std::unique_ptr<Solver> create(const SolverInputs& in, const SolveLimits&,

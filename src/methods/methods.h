@@ -120,9 +120,11 @@ std::uint64_t near_pairs_for(const Scene& scene, const RayScene& rays, const Lum
 std::uint64_t solver_bytes(const SolveSize& size, const SolverOptions& options);
 
 /// Steps until a limit of the options is met or `go_on` returns false. The time limit waits for the
-/// first light. Calls release() at the end. Returns true unless go_on ended it.
+/// first light. seconds: time so far, for that limit; empty: since the call. Calls release() at the
+/// end. Returns true unless go_on ended it.
 bool solve(Solver& solver, const SolverOptions& options,
-           const std::function<bool(const SolverState&)>& go_on = {});
+           const std::function<bool(const SolverState&)>& go_on = {},
+           const std::function<double()>& seconds = {});
 
 /// The solver of options.method.
 std::unique_ptr<Solver> make_solver(const SolverInputs& inputs, const SolverOptions& options);

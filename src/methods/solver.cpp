@@ -1,8 +1,8 @@
 #include "solve/solver/solver.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "base/core/usage.h"
 #include "methods/options.h"
 
 namespace lumel {
@@ -10,15 +10,16 @@ namespace lumel {
 namespace {
 
 bool step_on(Solver& solver, const SolverOptions& options,
-             const std::function<bool(const SolverState&)>& go_on)
+             const std::function<bool(const SolverState&)>& go_on,
+             const std::function<double()>& given_seconds)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = wall_seconds();
     for (;;) {
         const SolverState state = solver.state();
-        const double seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const double own_seconds = wall_seconds() - start;
         if (go_on && !go_on(state))
             return false;
+        const double seconds = given_seconds ? given_seconds() : own_seconds;
         if (options.max_shots > 0 && state.shots >= options.max_shots)
             return true;
         // Before there is light, an end would be of no use.
@@ -43,9 +44,10 @@ bool step_on(Solver& solver, const SolverOptions& options,
 }  // namespace
 
 bool solve(Solver& solver, const SolverOptions& options,
-           const std::function<bool(const SolverState&)>& go_on)
+           const std::function<bool(const SolverState&)>& go_on,
+           const std::function<double()>& seconds)
 {
-    const bool is_finished = step_on(solver, options, go_on);
+    const bool is_finished = step_on(solver, options, go_on, seconds);
     solver.release();
     return is_finished;
 }

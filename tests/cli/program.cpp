@@ -96,12 +96,11 @@ private:
     std::thread thread_;
 };
 
-[[noreturn]] void become_lumel(std::vector<std::string> arguments,
-                               std::vector<std::string> environment, int out, int err)
+[[noreturn]] void become(std::string program, std::vector<std::string> arguments,
+                         std::vector<std::string> environment, int out, int err)
 {
     for (std::string& setting : environment)
         putenv(setting.data());
-    std::string program = LUMEL_PROGRAM;
     std::vector<char*> values = {program.data()};
     for (std::string& argument : arguments)
         values.push_back(argument.data());
@@ -111,20 +110,31 @@ private:
     dup2(err, STDERR_FILENO);
     // Whatever the test runner ignores, a user's shell does not.
     signal(SIGINT, SIG_DFL);
-    execv(values[0], values.data());
+    execvp(values[0], values.data());
     _exit(127);
 }
 
 }  // namespace
 
+std::string lumel_program()
+{
+    return LUMEL_PROGRAM;
+}
+
 Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& options)
+{
+    return run_program(lumel_program(), arguments, options);
+}
+
+Outcome run_program(const std::string& program, const std::vector<std::string>& arguments,
+                    const RunOptions& options)
 {
     const Channel out = make_pipe();
     const bool interrupts = !options.interrupt_at.empty();
     const Channel err = options.terminal || interrupts ? make_terminal() : make_pipe();
     const pid_t child = fork();
     if (child == 0)
-        become_lumel(arguments, options.environment, out.theirs, err.theirs);
+        become(program, arguments, options.environment, out.theirs, err.theirs);
     close(out.theirs);
     close(err.theirs);
     if (options.on_start)
@@ -138,7 +148,7 @@ Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& o
     collect(out.ours, err.ours, outcome, [&] {
         if (!interrupts || sent || outcome.err.find(options.interrupt_at) == std::string::npos)
             return;
-        kill(child, SIGINT);
+        kill(child, options.signal);
         sent = true;
     });
     // Not after the child is waited for, when its number may be another's.

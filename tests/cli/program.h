@@ -1,6 +1,7 @@
 #pragma once
 // The built program as a user meets it: arguments in, exit code, stdout, stderr and files out.
 
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -13,8 +14,9 @@ namespace lumel::test {
 
 struct RunOptions {
     bool terminal = false;       ///< stderr is a terminal of 100 columns
-    std::string interrupt_at{};  ///< send SIGINT once stderr, a terminal, shows this stage
-    double kill_after = 0.0;     ///< send SIGKILL after so long [s]; 0: never
+    std::string interrupt_at{};  ///< send `signal` once stderr, a terminal, shows this text
+    int signal = SIGINT;
+    double kill_after = 0.0;                 ///< send SIGKILL after so long [s]; 0: never
     std::vector<std::string> environment{};  ///< NAME=VALUE, beside that of the test
     std::function<void(pid_t)> on_start{};   ///< called with the number of its process
 };
@@ -26,8 +28,15 @@ struct Outcome {
     std::uint64_t peak_bytes = 0;  ///< largest resident size that the system has seen
 };
 
+/// The built program.
+std::string lumel_program();
+
 /// Runs lumel to its end.
 Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& options = {});
+
+/// The same for another program, which is searched for as a shell does.
+Outcome run_program(const std::string& program, const std::vector<std::string>& arguments,
+                    const RunOptions& options = {});
 
 /// A fresh folder for one test, removed with all it holds.
 class Workplace {

@@ -8,6 +8,7 @@
 #include "jobs/bake/advice.h"
 #include "jobs/bake/daylight_files.h"
 #include "jobs/bake/outputs.h"
+#include "jobs/bake/shared_bake.h"
 #include "jobs/edit/kept_solution.h"
 #include "jobs/inspect/probes.h"
 #include "jobs/solve/checkpoint.h"
@@ -25,11 +26,12 @@
 namespace lumel {
 namespace {
 
-/// Bakes everything except light probes. output: created once the scene is read.
+/// Bakes everything except light probes. output: created once the scene is read, by the first rank.
 BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
                        BakeOptions options, std::optional<OutputFolder>& output,
-                       const ProgressFunction& progress)
+                       const ProgressFunction& progress, Ranks* ranks)
 {
+    const bool writes = !ranks || ranks->is_first();
     options.atlas = atlas_that_fits(options);
     const MethodInfo& method = method_of(options.solver.method);
     check_parts(options);
@@ -38,12 +40,17 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     open_libraries(options);
     Stages stages(progress);
     stages.begin("reading");
+    if (ranks)
+        check_ranks(*ranks, options, stages);
     const std::optional<WantedDaylight> wanted = wanted_daylight(options, stages);
     Scene scene = read_scene(scene_path, method.materials, options.lights);
     // Checks for failures before the long work.
-    output.emplace(folder);
+    if (writes)
+        output.emplace(folder);
+    if (ranks)
+        check_folder(*ranks, folder, output);
     std::optional<OutputFolder> dump;
-    if (!options.dump.empty())
+    if (writes && !options.dump.empty())
         dump.emplace(options.dump, "dump");
     const gpu::Device device(options.device);
 
@@ -55,10 +62,16 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     if (wanted)
         wanted->check_memory(setting.prepared, options, limits.host);
     limit_links(options, setting.prepared, limits);
+    if (ranks)
+        agree_on_bake(*ranks, setting.prepared, options);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =
-        keeps_sources_apart(options) ? solve_sources(device, setting, options, stages)
-                                     : solve_light(&device, setting, options, stages, &checkpoint);
+        keeps_sources_apart(options)
+            ? solve_sources(device, setting, options, stages)
+            : solve_light(&device, setting, options, stages, &checkpoint, ranks);
+    const std::vector<RankCost> costs = ranks ? ranks->costs() : std::vector<RankCost>();
+    if (!writes)
+        return {};
     const SolverState solved = solution->solver->state();
     SolveRun& run = solution->run;
     if (dump) {
@@ -103,7 +116,8 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
                           .form_factors = solution->form_factors,
                           .lamps = std::move(solution->lamps),
                           .directional = std::move(directional),
-                          .per_lamp = per_lamp};
+                          .per_lamp = per_lamp,
+                          .ranks = costs};
     output->outdate(kMatrixFile);
     output->outdate(kLinksFile);
     outdate_apart(*output, folder);
@@ -140,10 +154,12 @@ void check_parts(const BakeOptions& options)
 }
 
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
-                 const BakeOptions& options, const ProgressFunction& progress)
+                 const BakeOptions& options, const ProgressFunction& progress, Ranks* ranks)
 {
     std::optional<OutputFolder> output;
-    BakeSummary summary = bake_light(scene_path, folder, options, output, progress);
+    BakeSummary summary = bake_light(scene_path, folder, options, output, progress, ranks);
+    if (!output)
+        return summary;
     // A complete map is kept even if its probes are stopped.
     if (options.probe_spacing > 0.0 && !summary.interrupted)
         summary.interrupted =

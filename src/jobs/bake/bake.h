@@ -7,10 +7,14 @@
 
 namespace lumel {
 
+class Ranks;
+
 /// lumel bake: reads `scene_path`, solves, and writes lightmap.exr, lightmap.png, scene.glb,
-/// scene-baked.glb, preview.png and report.json into `folder`. Throws Error.
+/// scene-baked.glb, preview.png and report.json into `folder`. ranks: that share the work, of which
+/// the first writes the files and returns the summary; null: none. Throws Error.
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
-                 const BakeOptions& options, const ProgressFunction& progress = {});
+                 const BakeOptions& options, const ProgressFunction& progress = {},
+                 Ranks* ranks = nullptr);
 
 /// Throws Error{input} if the options ask for results that need all light, but for a part of it.
 void check_parts(const BakeOptions& options);

@@ -8,6 +8,7 @@
 
 #include "atlas/prepare/solve_scene.h"
 #include "base/images/image_files.h"
+#include "base/ranks/ranks.h"
 #include "gpu/device.h"
 #include "jobs/bake/lamp_maps.h"
 #include "jobs/solve/bake_options.h"
@@ -36,6 +37,7 @@ struct Results {
     DirectLight lamps;             ///< by sky and lamps
     DirectionalLight directional;  ///< empty if not requested
     std::optional<LampLights> per_lamp = {};
+    std::vector<RankCost> ranks = {};  ///< that shared the solve
 };
 
 /// Metadata of an EXR file of irradiance.

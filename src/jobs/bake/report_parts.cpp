@@ -105,6 +105,7 @@ void add_solution(Report& report, const gpu::Device& device, const Solver& solve
     report.visible_noise = results.visible_noise;
     report.interrupted = results.interrupted;
     report.convergence = results.curve;
+    report.ranks = results.ranks;
     report.form_factors = results.form_factors;
     add_times(report, "sky and lamps: ", results.lamps.times);
     add_times(report, "", solver.times());

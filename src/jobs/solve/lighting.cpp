@@ -15,12 +15,11 @@ Lumels dark(Lumels lumels)
     return lumels;
 }
 
-std::unique_ptr<Solution> run(const gpu::Device* device, const Setting& setting,
-                              const SolverOptions& options, std::optional<Lumels> changed,
-                              std::span<const glm::vec3> known, Stages& stages,
-                              const LobeParticles* particles, Parts parts = Parts::all,
-                              Checkpoint* checkpoint = nullptr,
-                              std::span<const glm::vec3> first_emission = {})
+std::unique_ptr<Solution>
+run(const gpu::Device* device, const Setting& setting, const SolverOptions& options,
+    std::optional<Lumels> changed, std::span<const glm::vec3> known, Stages& stages,
+    const LobeParticles* particles, Parts parts = Parts::all, Checkpoint* checkpoint = nullptr,
+    std::span<const glm::vec3> first_emission = {}, Ranks* ranks = nullptr)
 {
     auto solution = std::make_unique<Solution>();
     solution->lumels = std::move(changed);
@@ -33,9 +32,10 @@ std::unique_ptr<Solution> run(const gpu::Device* device, const Setting& setting,
                                     .particles = particles,
                                     .first_emission = first_emission,
                                     .scene = &setting.prepared,
-                                    .parts = parts},
+                                    .parts = parts,
+                                    .ranks = ranks},
                                    options);
-    solution->run = solve_in_stage(*solution->solver, options, stages, checkpoint);
+    solution->run = solve_in_stage(*solution->solver, options, stages, checkpoint, ranks);
     solution->irradiance = solution->solver->irradiance();
     return solution;
 }
@@ -44,13 +44,13 @@ std::unique_ptr<Solution> run(const gpu::Device* device, const Setting& setting,
 std::unique_ptr<Solution> solve_parts(const gpu::Device* device, const Setting& setting,
                                       const BakeOptions& options,
                                       const std::vector<glm::vec3>& direct, Stages& stages,
-                                      Checkpoint* checkpoint)
+                                      Checkpoint* checkpoint, Ranks* ranks)
 {
     const Lumels& lumels = setting.prepared.lumels;
     const LobeParticles* particles = setting.carriers();
     if (method_of(options.solver.method).finds_lights)
         return run(device, setting, options.solver, {}, {}, stages, particles, options.parts,
-                   checkpoint);
+                   checkpoint, {}, ranks);
     if (options.parts == Parts::all || finds_emitted(options.solver.method, lumels, {})) {
         std::unique_ptr<Solution> found =
             run(device, setting, options.solver,
@@ -125,11 +125,11 @@ std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>
 
 std::unique_ptr<Solution> solve_light(const gpu::Device* device, const Setting& setting,
                                       const BakeOptions& options, Stages& stages,
-                                      Checkpoint* checkpoint)
+                                      Checkpoint* checkpoint, Ranks* ranks)
 {
     DirectLight lamps = light_of_lamps(device, setting, options, stages);
     std::unique_ptr<Solution> solution =
-        solve_parts(device, setting, options, lamps.irradiance, stages, checkpoint);
+        solve_parts(device, setting, options, lamps.irradiance, stages, checkpoint, ranks);
     solution->lamps = std::move(lamps);
     return solution;
 }

@@ -48,9 +48,9 @@ struct Solution {
 /// light therefore takes two solves, and its first bounce is diffuse for any method. One solve is
 /// not enough: its sums mix the light of emissive surfaces with that of lamps on surfaces.
 /// device: null for methods on the CPU, if there is none. checkpoint: of a method that can
-/// continue, or null.
+/// continue, or null. ranks: that share the work of links, or null.
 std::unique_ptr<Solution> solve_light(const gpu::Device* device, const Setting& setting,
                                       const BakeOptions& options, Stages& stages,
-                                      Checkpoint* checkpoint = nullptr);
+                                      Checkpoint* checkpoint = nullptr, Ranks* ranks = nullptr);
 
 }  // namespace lumel

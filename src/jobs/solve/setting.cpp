@@ -9,6 +9,7 @@
 #include "atlas/prepare/lit_sides.h"
 #include "base/core/error.h"
 #include "base/core/log.h"
+#include "base/ranks/ranks.h"
 #include "jobs/solve/checkpoint.h"
 #include "jobs/solve/memory_plan.h"
 #include "methods/methods.h"
@@ -110,6 +111,18 @@ private:
     std::uint64_t next_ = 0;
 };
 
+/// True if no rank wants to stop. seconds: become those of the first rank.
+bool is_wanted_by_all(Ranks& ranks, bool wants_more, double& seconds)
+{
+    struct Wish {
+        double seconds;
+        bool wants_more;
+    };
+    const std::vector<Wish> wishes = ranks.all(Wish{seconds, wants_more});
+    seconds = wishes.front().seconds;
+    return std::ranges::all_of(wishes, &Wish::wants_more);
+}
+
 }  // namespace
 
 bool needs_world(const BakeOptions& options)
@@ -188,9 +201,11 @@ void tell_late(const SolverOptions& options, double before_solving, double first
 }
 
 SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stages,
-                        Checkpoint* checkpoint)
+                        Checkpoint* checkpoint, Ranks* ranks)
 {
-    const SolverOptions options = for_what_is_left(given, stages);
+    SolverOptions options = for_what_is_left(given, stages);
+    if (ranks)
+        options.max_seconds = ranks->all(options.max_seconds).front();
     const double before_solving = stages.seconds();
     stages.begin("solving");
     stages.note_arrays();
@@ -204,7 +219,8 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stag
     ErrorNotes errors(options);
     SolveRun run;
     std::optional<double> first_light;  // [s] from the first stage on
-    run.finished = solve(solver, limits, [&](const SolverState& state) {
+    double seconds = 0.0;               // that count for the time limit
+    const auto go_on = [&](const SolverState& state) {
         if (state.shots > 0 && !first_light)
             first_light = stages.seconds();
         errors.add(state, stages);
@@ -212,11 +228,17 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stag
         std::vector<ConvergencePoint>& curve = so_far.curve;
         if (state.error >= 0.0 && (curve.empty() || curve.back().error != state.error))
             curve.push_back({state.shots, so_far.seconds, state.error});
+        const bool wants_more = stages.progress(solved_fraction(options, state, so_far.seconds),
+                                                state.shots, state.error);
+        seconds = stages.stage_seconds();
+        const bool goes_on = ranks ? is_wanted_by_all(*ranks, wants_more, seconds) : wants_more;
+        if (!goes_on)
+            stages.stop();
         if (checkpoint)
             checkpoint->keep(solver, so_far);
-        return stages.progress(solved_fraction(options, state, so_far.seconds), state.shots,
-                               state.error);
-    });
+        return goes_on;
+    };
+    run.finished = solve(solver, limits, go_on, [&] { return seconds; });
     const bool kept = !run.finished && checkpoint && checkpoint->stop(solver, so_far);
     run.curve = std::move(so_far.curve);
     if (const SolverState state = solver.state(); !run.finished && state.shots == 0)

@@ -13,6 +13,7 @@
 namespace lumel {
 
 class Checkpoint;
+class Ranks;
 class Solver;
 
 /// Passes on the warnings of the scene's reader.
@@ -69,7 +70,9 @@ void tell_late(const SolverOptions& options, double before_solving, double first
                Stages& stages);
 
 /// Runs a solver up to its limits, as the stage "solving". checkpoint: read and written; or null.
+/// ranks: that take the same steps, until one of them is stopped or the first one's time is over;
+/// or null.
 SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages,
-                        Checkpoint* checkpoint = nullptr);
+                        Checkpoint* checkpoint = nullptr, Ranks* ranks = nullptr);
 
 }  // namespace lumel

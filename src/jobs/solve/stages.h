@@ -52,6 +52,8 @@ public:
     void watch(const gpu::Device& device) { device_ = &device; }
     /// True once the caller has requested to stop.
     bool stopped() const { return stopped_; }
+    /// As if the caller had.
+    void stop() { stopped_ = true; }
     void end();
 
     const std::vector<StageTime>& times() const { return times_; }

@@ -177,6 +177,8 @@ private:
     static bool differ(const OfCells& cells);
     void keep_by_cell(std::uint32_t lumel, const Found& found, float before, Block& block) const;
     void keep(std::uint32_t lumel, const Found& found, Block& block);
+    void share(const std::vector<std::uint32_t>& lumels, std::size_t first_block,
+               std::size_t last_block);
     double mean_of_all() const;
     bool differs(std::size_t lumel, double mean) const;
     std::uint32_t wanted(std::uint32_t lumel, double rays) const;

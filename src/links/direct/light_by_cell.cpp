@@ -4,6 +4,7 @@
 #include <span>
 
 #include "base/core/luminance.h"
+#include "base/ranks/rank_blocks.h"
 #include "links/direct/found_light.h"
 
 namespace lumel {
@@ -75,6 +76,22 @@ void DirectEstimator::keep(std::uint32_t i, const Found& found, Block& block)
         seen_[i] = found.seen;
     }
     block.rays += found.rays;
+}
+
+/// Gives each rank what the others have found in blocks of a list.
+void DirectEstimator::share(const std::vector<std::uint32_t>& lumels, std::size_t first,
+                            std::size_t last)
+{
+    share_blocks(work_.ranks, first, last, [&](auto& archive, std::size_t b) {
+        archive(blocks_[b]);
+        const std::size_t end = std::min((b + 1) * kBlock, lumels.size());
+        for (std::size_t k = b * kBlock; k < end; ++k) {
+            const std::uint32_t i = lumels[k];
+            archive(half_[0][i], half_[1][i], taken_[i], seen_[i], uncertain_[i]);
+            for (std::size_t lamp = 0; lamp < lamps_; ++lamp)
+                archive(lamp_half_[0][i * lamps_ + lamp], lamp_half_[1][i * lamps_ + lamp]);
+        }
+    });
 }
 
 bool DirectEstimator::ByCell::fits(std::size_t lumels) const

@@ -8,6 +8,7 @@
 #include "atlas/cells/ray_origins.h"
 #include "atlas/lumels/sample_rule.h"
 #include "atlas/prepare/solve_scene.h"
+#include "base/ranks/ranks.h"
 #include "lights/sources.h"
 #include "rays/device/bundle_caster.h"
 
@@ -24,9 +25,10 @@ struct LinkWork {
     /// Returns the lumels [N] in the order in which they trace rays.
     using Order = std::vector<std::uint32_t> (*)(const WorldLumels& world);
 
-    /// The scene must outlive this, unmoved. lights: that count as sources.
+    /// The scene and the ranks must outlive this, the scene unmoved. lights: that count as sources.
+    /// shared_by: ranks that share the work, or null.
     LinkWork(const SolveScene& of, Casters by, SampleRule rule, Order order_of,
-             const LightSelection& lights = {})
+             const LightSelection& lights = {}, Ranks* shared_by = nullptr)
         : scene(of),
           casters(std::move(by)),
           world(of.scene, of.rays, of.lumels),
@@ -34,6 +36,7 @@ struct LinkWork {
           starts(world, &cells, rule == SampleRule::centre),
           sources(of.scene, of.surfaces, of.extent(), lights),
           order(order_of(world)),
+          ranks(shared_by),
           host_(cast_on_host(of.rays))
     {
     }
@@ -53,6 +56,7 @@ struct LinkWork {
     const RayOrigins starts;
     LightSources sources;                    ///< LightSources::find() after changes of light
     const std::vector<std::uint32_t> order;  ///< [N]
+    Ranks* ranks;                            ///< that share rays and sweeps; null: none
 
 private:
     const std::unique_ptr<RayCaster> host_;

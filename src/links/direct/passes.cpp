@@ -6,13 +6,15 @@
 
 #include "base/core/luminance.h"
 #include "base/core/parallel.h"
+#include "base/ranks/rank_blocks.h"
 #include "links/direct/deviation.h"
 #include "links/direct/direct.h"
 
 namespace lumel {
 namespace {
 
-constexpr std::size_t kBlocksPerPass = 64;
+/// Of a rank.
+constexpr std::size_t kBlocksPerStep = 64;
 /// Neighbours on each side in the order of lumels that are compared for the sources they see.
 constexpr std::size_t kComparedNeighbours = 4;
 /// Passes must reduce the variance to this fraction: those that gain less are not worth their rays.
@@ -36,11 +38,12 @@ bool DirectEstimator::step()
         return false;
     if (!first_pass_ && done_ == blocks_.size())
         return false;  // no pass has begun since the last
-    const std::size_t last_block = std::min(done_ + kBlocksPerPass, blocks_.size());
+    const std::size_t last_block =
+        std::min(done_ + kBlocksPerStep * count_of(work_.ranks), blocks_.size());
     const std::size_t grain = work_.caster().batch() / (kBlock * 2 * kFewRays);
-    parallel_for(last_block - done_, grain, [&](std::size_t first, std::size_t last) {
-        find(list, done_ + first, done_ + last);
-    });
+    parallel_for_own(work_.ranks, done_, last_block, grain,
+                     [&](std::size_t first, std::size_t last) { find(list, first, last); });
+    share(list, done_, last_block);
     done_ = last_block;
     if (done_ < blocks_.size())
         return true;

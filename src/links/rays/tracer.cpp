@@ -14,6 +14,7 @@
 #include "base/core/parallel.h"
 #include "base/core/pi.h"
 #include "base/core/sphere.h"
+#include "base/ranks/rank_blocks.h"
 #include "links/rays/ray_batch.h"
 
 namespace lumel {
@@ -366,8 +367,8 @@ void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sendi
         for (std::size_t o = first * kLinkBlock; o < end; ++o)
             all += sending.rays[work_.order[o]];
         const std::size_t grain = work_.caster().batch() * (last - first) / all;
-        parallel_for(last - first, grain, [&](std::size_t from, std::size_t to) {
-            trace_blocks(first + from, first + to, sending, into);
+        parallel_for_own(work_.ranks, first, last, grain, [&](std::size_t from, std::size_t to) {
+            trace_blocks(from, to, sending, into);
         });
     }
     for (std::size_t b = first; b < last; ++b) {

@@ -54,7 +54,8 @@ public:
         const RayGuide* guide = nullptr;         ///< null: rays are uniform
         std::optional<Known> known = {};         ///< traces only what can have changed
     };
-    /// Traces blocks [first, last) into the last round of `into`.
+    /// Traces blocks [first, last) into the last round of `into`; of several ranks each traces its
+    /// own.
     void trace(std::size_t first, std::size_t last, const Sending& sending, LinkTable& into) const;
 
 private:

@@ -7,6 +7,7 @@
 
 #include "base/core/error.h"
 #include "base/core/parallel.h"
+#include "base/ranks/rank_blocks.h"
 #include "links/sweeps/light_change.h"
 
 namespace lumel {
@@ -190,11 +191,23 @@ public:
     /// X from the light that all send, and the light that they then send.
     void sweep_all()
     {
+        Ranks* const ranks = solver_.work_.ranks;
         const std::size_t blocks = (solver_.work_.order.size() + kLinkBlock - 1) / kLinkBlock;
-        parallel_for(blocks, kBlocksPerTask, [&](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b)
-                sweep_block(b);
+        parallel_for_own(ranks, 0, blocks, kBlocksPerTask,
+                         [&](std::size_t first, std::size_t last) {
+                             for (std::size_t b = first; b < last; ++b)
+                                 sweep_block(b);
+                         });
+        share_bytes(ranks, 0, blocks, [&](std::size_t b) {
+            return std::as_writable_bytes(std::span(received_).subspan(
+                parts_of(b).first * Lanes, (parts_of(b).last - parts_of(b).first) * Lanes));
         });
+        parallel_for_others(
+            ranks, 0, blocks, kBlocksPerTask, [&](std::size_t first, std::size_t last) {
+                for (std::size_t p = parts_of(first).first; p < parts_of(last - 1).last; ++p)
+                    for (std::size_t lane = 0; lane < Lanes; ++lane)
+                        send(std::uint32_t(p), lane);
+            });
     }
 
     /// Corrects the light after a sweep. Returns the residual.
@@ -217,6 +230,10 @@ public:
     void advance() { sent_.swap(next_); }
 
 private:
+    struct PartRange {
+        std::size_t first, last;
+    };
+
     std::uint32_t number(std::size_t part) const
     {
         return solver_.numbers_.of_part(std::uint32_t(part));
@@ -242,6 +259,14 @@ private:
                                          levels.areas()[p]));
         }
         return sums;
+    }
+
+    /// The sub-lumels of a block, which are numbered in the order of lumels.
+    PartRange parts_of(std::size_t b) const
+    {
+        const std::vector<std::uint32_t>& order = solver_.work_.order;
+        const std::size_t end = std::min((b + 1) * kLinkBlock, order.size());
+        return {solver_.parts_.first(order[b * kLinkBlock]), solver_.parts_.end(order[end - 1])};
     }
 
     LaneLight<Lanes> source(std::uint32_t part) const
@@ -283,10 +308,16 @@ private:
     {
         const float share = system_.source.share_of_ray(p);
         for (std::size_t lane = 0; lane < Lanes; ++lane) {
-            const glm::vec3 mean = mean_light(glm::vec3(sum[lane]), share);
-            received_[p * Lanes + lane] = mean;
-            next_[number(p)][lane] = glm::vec4(radiosity(solver_.albedo_[p], mean), 0.0f);
+            received_[p * Lanes + lane] = mean_light(glm::vec3(sum[lane]), share);
+            send(p, lane);
         }
+    }
+
+    /// The light that a sub-lumel sends once it has received the present one.
+    void send(std::uint32_t p, std::size_t lane)
+    {
+        next_[number(p)][lane] =
+            glm::vec4(radiosity(solver_.albedo_[p], received_[p * Lanes + lane]), 0.0f);
     }
 
     const LinkSolver& solver_;

@@ -8,9 +8,9 @@
 
 #include "base/core/frame.h"
 #include "base/core/luminance.h"
-#include "base/core/parallel.h"
 #include "base/core/pi.h"
 #include "base/core/sphere.h"
+#include "base/ranks/rank_blocks.h"
 #include "links/trace/links.h"
 
 namespace lumel {
@@ -140,10 +140,13 @@ bool LinkRadiosity::learn_guide()
     for (std::size_t k = 0; k < kSolutions; ++k)
         sent[k] = light_sent(k);
     std::vector<std::vector<LearntGroup>> learnt(tracer_->blocks());
-    parallel_for(learnt.size(), kGuideBlocksPerTask, [&](std::size_t from, std::size_t to) {
-        for (std::size_t b = from; b < to; ++b)
-            learnt[b] = learn_block(b, sent);
-    });
+    parallel_for_own(work_.ranks, 0, learnt.size(), kGuideBlocksPerTask,
+                     [&](std::size_t from, std::size_t to) {
+                         for (std::size_t b = from; b < to; ++b)
+                             learnt[b] = learn_block(b, sent);
+                     });
+    share_blocks(work_.ranks, 0, learnt.size(),
+                 [&](auto& archive, std::size_t b) { archive(learnt[b]); });
     for (const std::vector<LearntGroup>& block : learnt)
         for (const LearntGroup& group : block) {
             if (guide_.empty()) {

@@ -24,6 +24,7 @@
 #include "base/core/luminance.h"
 #include "base/core/state_bytes.h"
 #include "base/core/usage.h"
+#include "base/ranks/rank_blocks.h"
 #include "links/direct/deviation.h"
 #include "links/filter/adapted_light.h"
 #include "links/filter/visible_noise.h"
@@ -34,7 +35,7 @@
 namespace lumel {
 namespace {
 
-/// Blocks of links per step, at the first round's number of rays.
+/// Blocks of links per step and rank, at the first round's number of rays.
 constexpr std::size_t kBlocksPerStep = 128;
 /// Blocks per step when rasterising, whose cost hardly grows with them: a million rays (200 MB).
 constexpr std::size_t kBlocksPerDrawing = 512;
@@ -63,19 +64,22 @@ private:
 }  // namespace
 
 LinkRadiosity::LinkRadiosity(const gpu::Device* device, const SolveScene& scene,
-                             const LinksOptions& options, const SolveLimits& limits, Parts parts)
-    : LinkRadiosity(scene, casters_for(device, scene.rays, options.rays), options, limits, parts)
+                             const LinksOptions& options, const SolveLimits& limits, Parts parts,
+                             Ranks* ranks)
+    : LinkRadiosity(scene, casters_for(device, scene.rays, options.rays), options, limits, parts,
+                    ranks)
 {
 }
 
 LinkRadiosity::LinkRadiosity(const SolveScene& scene, const LinksOptions& options,
                              const SolveLimits& limits, Parts parts)
-    : LinkRadiosity(scene, {.rays = cast_on_host(scene.rays)}, options, limits, parts)
+    : LinkRadiosity(scene, {.rays = cast_on_host(scene.rays)}, options, limits, parts, nullptr)
 {
 }
 
 LinkRadiosity::LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters,
-                             const LinksOptions& options, const SolveLimits& limits, Parts parts)
+                             const LinksOptions& options, const SolveLimits& limits, Parts parts,
+                             Ranks* ranks)
     : options_(options),
       target_error_(limits.target_error),
       target_dark_error_(limits.target_dark_error),
@@ -86,12 +90,13 @@ LinkRadiosity::LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters,
       most_device_bytes_(limits.max_device_bytes),
       parts_wanted_(parts),
       work_(scene, std::move(casters), options.rule, order_in_space,
-            options.outside_light ? kNoSources : LightSelection{}),
+            options.outside_light ? kNoSources : LightSelection{}, ranks),
       lamps_(options.outside_light ? std::optional(LampTable{})
              : options.per_lamp ? std::optional(find_lamps(scene.scene, scene.lumels, work_.sources,
                                                            options.groups))
                                 : std::nullopt),
-      sweeping_(work_.casters.device)
+      // Ranks share the sweeps of the CPU.
+      sweeping_(count_of(ranks) > 1 ? nullptr : work_.casters.device)
 {
 }
 
@@ -237,6 +242,7 @@ void LinkRadiosity::trace()
 {
     const std::size_t blocks = work_.casters.bundles ? kBlocksPerDrawing : kBlocksPerStep;
     const std::size_t count =
+        count_of(work_.ranks) *
         std::max(std::size_t(double(blocks * kFirstRays) / mean_rays_), std::size_t(1));
     const std::size_t last = std::min(traced_ + count, tracer_->blocks());
     const bool shares = shares_directions();
@@ -253,6 +259,7 @@ void LinkRadiosity::trace()
                 LinkTracer::Known{changes_, stored_->rounds[round_], first_rays_, k});
         tracer_->trace(traced_, last, sending, *links_[k]);
     }
+    share_links(traced_, last);
     traced_ = last;
 }
 
@@ -269,6 +276,7 @@ void LinkRadiosity::begin_links()
     stage_ = Stage::links;
     for (std::optional<LinkTable>& links : links_)
         links->rounds.emplace_back(tracer_->blocks());
+    check_agreement();
 }
 
 /// Sweeps on the device. Throws gpu::OutOfMemory.

@@ -34,10 +34,11 @@ std::uint64_t free_bytes_for_links();
 class LinkRadiosity final : public Solver {
 public:
     /// All arguments must outlive this. device: null if there is none. limits: stopping criteria.
-    /// parts: of the light that irradiance() returns. Throws Error{device} if the options require a
-    /// ray tracing backend that the device lacks.
+    /// parts: of the light that irradiance() returns. ranks: that share the work of steps; null:
+    /// none. Throws Error{device} if the options require a ray tracing backend that the device
+    /// lacks.
     LinkRadiosity(const gpu::Device* device, const SolveScene& scene, const LinksOptions& options,
-                  const SolveLimits& limits, Parts parts);
+                  const SolveLimits& limits, Parts parts, Ranks* ranks = nullptr);
     /// Traces rays on the CPU.
     LinkRadiosity(const SolveScene& scene, const LinksOptions& options, const SolveLimits& limits,
                   Parts parts = Parts::all);
@@ -136,7 +137,7 @@ public:
 
 private:
     LinkRadiosity(const SolveScene& scene, LinkWork::Casters casters, const LinksOptions& options,
-                  const SolveLimits& limits, Parts parts);
+                  const SolveLimits& limits, Parts parts, Ranks* ranks);
 
     static constexpr std::uint32_t kMaxLinks = 4096;  ///< of a lumel in a round and solution
     /// Rays per lumel in each solution of the first round; powers of two stratify best.
@@ -167,6 +168,8 @@ private:
     void cut();
     void find_light();
     void trace();
+    void share_links(std::size_t first, std::size_t last);
+    void check_agreement() const;
     void begin_round();
     void begin_known_round();
     void begin_links();

@@ -75,6 +75,17 @@ Json timings(const Report& report)
             {"gpu", gpu_times(report)}};
 }
 
+Json ranks(const Report& report)
+{
+    Json rows = Json::array();
+    for (const RankCost& rank : report.ranks)
+        rows.push_back({{"working_seconds", rank.working},
+                        {"waiting_seconds", rank.waiting},
+                        {"received_bytes", rank.bytes},
+                        {"messages", rank.messages}});
+    return rows;
+}
+
 Json solution(const Report& report)
 {
     Json curve = Json::array();
@@ -226,6 +237,8 @@ Json to_json(const Report& report)
         json["preview"] = preview(*report.preview);
     json["timings"] = timings(report);
     json["memory"] = memory(report);
+    if (!report.ranks.empty())
+        json["ranks"] = ranks(report);
     json["units"] = report.picture_width > 0
                         ? picture_units()
                         : map_units(report.directional_shots > 0, report.pages);

@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "base/json/json_view.h"
+#include "base/ranks/ranks.h"
 #include "solve/solver/solver_state.h"
 
 namespace lumel {
@@ -132,6 +133,7 @@ struct Report {
     std::vector<StageTime> stages;
     /// Kernel or pass name and its runs, in GPU timestamps [ms].
     std::vector<std::pair<std::string, std::vector<double>>> gpu_milliseconds;
+    std::vector<RankCost> ranks;  ///< processes that shared the solve
     std::int64_t peak_host_bytes = -1;
     std::int64_t peak_gpu_bytes = -1;
 

@@ -7,6 +7,7 @@
 
 #include "atlas/near/near_field.h"
 #include "atlas/prepare/solve_scene.h"
+#include "base/ranks/ranks.h"
 #include "raster/world/world.h"
 #include "scene/values/parts.h"
 
@@ -31,6 +32,7 @@ struct SolverInputs {
     /// For methods that trace rays on the CPU: links, matrix, and directions of Scheme::phased.
     const SolveScene* scene = nullptr;
     Parts parts = Parts::all;  ///< results of methods that find lights or finds_emitted()
+    Ranks* ranks = nullptr;    ///< that share the work of links; null: none
 };
 
 }  // namespace lumel
