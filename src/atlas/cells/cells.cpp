@@ -8,6 +8,7 @@
 
 #include "atlas/cells/ray_origins.h"
 #include "base/core/parallel.h"
+#include "base/ranks/rank_blocks.h"
 #include "rays/paths/samples.h"
 
 namespace lumel {
@@ -280,7 +281,7 @@ SeenCells SubLumels::seen_cells(std::size_t lumel) const
 
 SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScene& rays,
                      const Lumels& lumels, const std::vector<std::uint32_t>& order,
-                     std::uint32_t seed)
+                     std::uint32_t seed, Ranks* ranks)
     : world_(world),
       cells_(cells),
       rays_(rays),
@@ -291,9 +292,13 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
       parts_(world.size(), 1),
       code_(world.size(), 0)
 {
-    parallel_for(world.size(), kCellsPerTask, [&](std::size_t first, std::size_t last) {
+    const auto end_of = [&](std::size_t block) {
+        return std::min((block + 1) * kCellsPerTask, world.size());
+    };
+    const std::size_t blocks = (world.size() + kCellsPerTask - 1) / kCellsPerTask;
+    parallel_for_own(ranks, 0, blocks, 1, [&](std::size_t first, std::size_t last) {
         RaysTogether cast;
-        for (std::size_t i = first; i < last; ++i) {
+        for (std::size_t i = first * kCellsPerTask; i < end_of(last - 1); ++i) {
             if (lumels.lumels[i].flags & kLumelBuried)
                 continue;
             const SeenCells seen = seen_cells(i);
@@ -307,6 +312,10 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
             if (cover.is_half)
                 flags_[i] |= kHalfCovered;
         }
+    });
+    share_blocks(ranks, 0, blocks, [&](auto& archive, std::size_t b) {
+        for (std::size_t i = b * kCellsPerTask; i < end_of(b); ++i)
+            archive(flags_[i], parts_[i], code_[i]);
     });
     for (const std::uint32_t i : order) {
         first_[i] = std::uint32_t(lumel_.size());

@@ -18,6 +18,8 @@
 
 namespace lumel {
 
+class Ranks;
+
 /// Cells per side of a lumel, and per lumel.
 inline constexpr int kCellSide = 4, kCells = kCellSide * kCellSide;
 /// Maximum sub-lumels of a lumel; the last one takes the rest.
@@ -104,9 +106,11 @@ class SubLumels {
 public:
     /// Joins cells whose points see each other by rays just above the lumel. Buried lumels stay
     /// whole. All arguments must outlive this but order [N]: in which lumels get their sub-lumels'
-    /// numbers, so that those of neighbours are close in memory.
+    /// numbers, so that those of neighbours are close in memory. ranks: that share the work, or
+    /// null.
     SubLumels(const WorldLumels& world, const Cells& cells, const RayScene& rays,
-              const Lumels& lumels, const std::vector<std::uint32_t>& order, std::uint32_t seed);
+              const Lumels& lumels, const std::vector<std::uint32_t>& order, std::uint32_t seed,
+              Ranks* ranks = nullptr);
 
     /// Memory for these numbers of lumels and sub-lumels [bytes].
     static std::uint64_t bytes(std::size_t lumels, std::size_t parts)

@@ -6,7 +6,7 @@
 
 #include "atlas/lumels/sides.h"
 #include "base/core/luminance.h"
-#include "base/core/parallel.h"
+#include "base/ranks/rank_blocks.h"
 
 namespace lumel {
 namespace {
@@ -79,12 +79,20 @@ ChartFilter::ChartFilter(const LinkWork& work, const SubLumels& parts,
       steps_(work.world.size()),
       nearness_(work.world.size())
 {
-    parallel_for(work.world.size(), kLumelsPerTask, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
+    const auto end_of = [&](std::size_t block) {
+        return std::min((block + 1) * kLumelsPerTask, steps_.size());
+    };
+    const std::size_t blocks = (steps_.size() + kLumelsPerTask - 1) / kLumelsPerTask;
+    parallel_for_own(work.ranks, 0, blocks, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first * kLumelsPerTask; i < end_of(last - 1); ++i)
             steps_[i] = find_steps(i, distances.nearest);
-            nearness_[i] = work.world[i].size * distances.inverse[i];
-        }
     });
+    share_bytes(work.ranks, 0, blocks, [&](std::size_t b) {
+        const std::size_t first = b * kLumelsPerTask;
+        return std::as_writable_bytes(std::span(steps_).subspan(first, end_of(b) - first));
+    });
+    for (std::size_t i = 0; i < nearness_.size(); ++i)
+        nearness_[i] = work.world[i].size * distances.inverse[i];
 }
 
 std::uint64_t ChartFilter::bytes(std::size_t lumels, std::size_t texels)
@@ -155,12 +163,22 @@ FilterChart ChartFilter::chart_at(const ChartPlace& place) const
     return chart;
 }
 
-/// Calls visit(chart, filtered estimates) for each chart, in parallel.
+/// Gives each rank what the others have found on their charts.
+void ChartFilter::share(Mean& mean) const
+{
+    share_blocks(work_.ranks, 0, places_.size(), [&](auto& archive, std::size_t n) {
+        for (const std::uint32_t i : chart_at(places_[n]).lumel)
+            if (i != kNoLumel)
+                archive(mean.light[i], mean.noise[i], mean.wrong[i], mean.apart[i], mean.bend[i]);
+    });
+}
+
+/// Calls visit(chart, filtered estimates) for each chart of this rank, in parallel.
 template <std::size_t Count, class Visit>
 void ChartFilter::filter(const std::array<const Estimates*, Count>& found, const PyramidRule& rule,
                          const Visit& visit) const
 {
-    parallel_for(places_.size(), 1, [&](std::size_t first, std::size_t last) {
+    parallel_for_own(work_.ranks, 0, places_.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t n = first; n < last; ++n) {
             FilterChart chart = chart_at(places_[n]);
             if (is_known(chart, found))
@@ -196,6 +214,7 @@ Mean ChartFilter::indirect(const Solutions& found) const
                                 3.0f;
             }
         });
+    share(mean);
     return mean;
 }
 
@@ -257,6 +276,7 @@ Mean ChartFilter::direct(const Estimates& one, const Estimates& other) const
                           glm::vec3(luminance(a - one[i]), luminance(b - other[i]), 0.0f);
                   }
               });
+    share(mean);
     return mean;
 }
 

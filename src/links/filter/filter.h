@@ -53,6 +53,7 @@ private:
     bool may_step(std::size_t i, std::size_t j, float nearest) const;
     FilterChart chart_at(const ChartPlace& place) const;
     std::vector<std::uint32_t> find_kinds() const;
+    void share(Mean& mean) const;
     template <std::size_t Count, class Visit>
     void filter(const std::array<const Estimates*, Count>& found, const PyramidRule& rule,
                 const Visit& visit) const;

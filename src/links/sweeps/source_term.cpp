@@ -5,6 +5,7 @@
 
 #include "base/core/parallel.h"
 #include "base/core/precise.shared.h"
+#include "base/ranks/rank_blocks.h"
 
 namespace lumel {
 namespace {
@@ -16,13 +17,18 @@ constexpr std::size_t kSourcesPerTask = 4096, kSourceBlocksPerTask = 4;
 /// contact anyway.
 constexpr float kLeastDistance = 1e-3f;
 
-/// Calls visit(row, lumel) for all rows, in parallel; rows of one lumel one after another.
+std::size_t blocks_of(const LinkWork& work)
+{
+    return (work.order.size() + kLinkBlock - 1) / kLinkBlock;
+}
+
+/// Calls visit(row, lumel) for all rows of this rank, in parallel; rows of one lumel one after
+/// another.
 template <class Visit>
 void for_each_row(const LinkWork& work, const SubLumels& parts, const LinkTable& links,
                   const Visit& visit)
 {
-    const std::size_t blocks = (work.order.size() + kLinkBlock - 1) / kLinkBlock;
-    parallel_for(blocks, kSourceBlocksPerTask, [&](std::size_t from, std::size_t to) {
+    const auto visit_blocks = [&](std::size_t from, std::size_t to) {
         for (std::size_t b = from; b < to; ++b)
             for (const std::vector<LinkBlock>& round : links.rounds) {
                 LinkRows rows(round[b]);
@@ -30,6 +36,18 @@ void for_each_row(const LinkWork& work, const SubLumels& parts, const LinkTable&
                 for (std::size_t o = b * kLinkBlock; o < end; ++o)
                     visit(rows.next(parts.is_cut(work.order[o])), work.order[o]);
             }
+    };
+    parallel_for_own(work.ranks, 0, blocks_of(work), kSourceBlocksPerTask, visit_blocks);
+}
+
+/// Gives each rank what the others have found of their rows. state(archive, lumel).
+template <class State>
+void share_rows(const LinkWork& work, const State& state)
+{
+    share_blocks(work.ranks, 0, blocks_of(work), [&](auto& archive, std::size_t b) {
+        const std::size_t end = std::min((b + 1) * kLinkBlock, work.order.size());
+        for (std::size_t o = b * kLinkBlock; o < end; ++o)
+            state(archive, work.order[o]);
     });
 }
 
@@ -46,6 +64,10 @@ std::vector<char> unknown_parts(const LinkWork& work, const SubLumels& parts,
             for (std::size_t k = 0; k < row.ends.size(); ++k)
                 if (row.ends[k].number() != numbers.hidden())
                     unknown[parts.first(i) + row.leaves(parts, i, k)] = 0;
+    });
+    share_rows(work, [&](auto& archive, std::uint32_t i) {
+        for (std::uint32_t p = parts.first(i); parts.is_cut(i) && p < parts.end(i); ++p)
+            archive(unknown[p]);
     });
     return unknown;
 }
@@ -266,6 +288,11 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
             returned[p] += count.returned;
         }
     });
+    share_rows(work, [&](auto& archive, std::uint32_t i) {
+        archive(loses[i]);
+        for (std::uint32_t p = parts.first(i); p < parts.end(i); ++p)
+            archive(sum.rays[p]);
+    });
     for (std::size_t p = 0; p < parts.count(); ++p) {
         // Weights of guided rays equal their number only in the mean: in a gap, more would make
         // light grow from sweep to sweep.
@@ -336,6 +363,9 @@ RayDistances find_distances(const LinkWork& work, const SubLumels& parts,
         });
     for (std::size_t i = 0; i < count; ++i)
         result.inverse[i] /= float(std::max(rays[i], 1u));
+    share_rows(work, [&](auto& archive, std::uint32_t i) {
+        archive(result.nearest[i], result.inverse[i]);
+    });
     return result;
 }
 

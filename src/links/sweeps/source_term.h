@@ -23,8 +23,8 @@ using LaneLight = std::array<glm::vec4, Lanes>;
 inline constexpr std::size_t kLampLanes = 8;
 
 struct SourceTerm {
-    /// [P][lanes] Σ over rays of reflected direct light, and sky [lx]. w: 0, so that sweeps can add
-    /// to it.
+    /// [P][lanes] Σ over rays of reflected direct light, and sky [lx]; of rays of this rank only.
+    /// w: 0, so that sweeps can add to it.
     std::vector<glm::vec4> light;
     /// [P] Σ of the weights of rays that count: not those to sub-lumels without any. Where all
     /// count, their number; but at least the weights of near links.

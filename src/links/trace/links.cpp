@@ -219,7 +219,7 @@ void LinkRadiosity::cut()
     if (stored_)
         changes_ = changes_since(*stored_, work_.scene, work_.world, options_.seed);
     parts_.emplace(work_.world, work_.cells, work_.scene.rays, work_.scene.lumels, work_.order,
-                   PathSamples::hash(options_.seed, kPartStream));
+                   PathSamples::hash(options_.seed, kPartStream), work_.ranks);
     numbers_.emplace(work_.scene.scene.instances.size(), parts_->count());
     solver_.emplace(work_, *parts_, *numbers_);
     find_light();
