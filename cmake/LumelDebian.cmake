@@ -1,6 +1,6 @@
 # The Debian package: target `deb` makes lumel_<version>_<architecture>.deb with the program (shaders inside), liblumel
-# with its headers and its CMake and pkg-config files, the manual page, completions and docs. It needs the libraries of
-# the release that it was built on.
+# with its headers and its CMake and pkg-config files, the manual page, completions and docs; and lumel-mpi, with the
+# module for MPI alone. They need the libraries of the release that they were built on.
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME lumel)
@@ -16,9 +16,22 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR})
 
-# One package of these components; `bundle` is not in it.
+# One package of these components; `bundle` is in none.
 set(CPACK_COMPONENTS_ALL program library documentation)
-set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+foreach(component PROGRAM LIBRARY DOCUMENTATION)
+    set(CPACK_COMPONENT_${component}_GROUP main)
+endforeach()
+set(CPACK_DEBIAN_MAIN_PACKAGE_NAME lumel)
+if(LUMEL_MPI)
+    list(APPEND CPACK_COMPONENTS_ALL mpi)
+    set(CPACK_COMPONENT_MPI_GROUP mpi)
+    set(CPACK_DEBIAN_MPI_PACKAGE_NAME lumel-mpi)
+    set(CPACK_DEBIAN_MPI_DESCRIPTION "light baker: one bake by several machines
+The module by which lumel runs as several processes that MPI starts.")
+    set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "lumel (= ${PROJECT_VERSION})")
+    set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)
+endif()
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(document_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/lumel)
@@ -48,7 +61,7 @@ include(CPack)
 
 add_custom_target(deb
     COMMAND ${CMAKE_CPACK_COMMAND} --config ${PROJECT_BINARY_DIR}/CPackConfig.cmake
-    DEPENDS lumel lumel_library lumel_manual
+    DEPENDS lumel lumel_library lumel_manual $<TARGET_NAME_IF_EXISTS:lumel_mpi>
     WORKING_DIRECTORY ${PROJECT_BINARY_DIR}
     COMMENT "Making the Debian package"
     VERBATIM)
