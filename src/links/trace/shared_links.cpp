@@ -22,26 +22,17 @@ void LinkRadiosity::share_links(std::size_t first, std::size_t last)
     });
 }
 
-/// Throws Error{input} on all ranks unless they would trace the same rays from the same sub-lumels:
-/// they repeat all work that they do not share, which processors of two kinds may round
-/// differently.
+/// Throws Error{input} on all ranks unless they would trace the same rays: they repeat the work
+/// that they do not share, which processors of two kinds may round differently.
 void LinkRadiosity::check_agreement() const
 {
     if (count_of(work_.ranks) == 1)
         return;
     Fingerprint hash;
-    for (std::uint32_t i = 0; i < std::uint32_t(work_.order.size()); ++i) {
-        hash.add(parts_->end(i));
-        hash.add(std::uint32_t(parts_->is_half_covered(i)) << 1 |
-                 std::uint32_t(parts_->has_hidden(i)));
-        for (std::uint32_t c = 0; parts_->is_cut(i) && c < std::uint32_t(kCells); ++c)
-            hash.add(parts_->part(i, c));
-    }
     hash.add(rays_);
     hash.add(guide_.group);
-    work_.ranks->agree(hash.value(),
-                       "has other intermediate results than rank 0; all machines need "
-                       "processors of the same kind");
+    work_.ranks->agree(hash.value(), "has other intermediate results than rank 0; all machines "
+                                     "need processors of the same kind");
 }
 
 }  // namespace lumel
