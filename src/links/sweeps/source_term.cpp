@@ -288,15 +288,16 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
             returned[p] += count.returned;
         }
     });
+    // Weights of guided rays equal their number only in the mean: in a gap, more would make light
+    // grow from sweep to sweep.
+    for (std::size_t p = 0; p < parts.count(); ++p)
+        sum.rays[p] = std::max(sum.rays[p], returned[p]);
     share_rows(work, [&](auto& archive, std::uint32_t i) {
         archive(loses[i]);
         for (std::uint32_t p = parts.first(i); p < parts.end(i); ++p)
             archive(sum.rays[p]);
     });
     for (std::size_t p = 0; p < parts.count(); ++p) {
-        // Weights of guided rays equal their number only in the mean: in a gap, more would make
-        // light grow from sweep to sweep.
-        sum.rays[p] = std::max(sum.rays[p], returned[p]);
         const LaneLight<Lanes> sky = reflected.of_sky(links.sky[p]);
         for (std::size_t lane = 0; lane < Lanes; ++lane)
             sum.light[p * Lanes + lane] =

@@ -55,6 +55,12 @@ struct LinkRadiosity::SentLight {
 struct LinkRadiosity::LearntGroup {
     std::vector<std::uint32_t> lumels;
     RayGuide::Table table;
+
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(lumels, table);
+    }
 };
 
 /// Whether rays may be guided.
