@@ -1,6 +1,6 @@
 #pragma once
-// What ranks need of a message-passing library. The module for MPI and the program both compile
-// this header, so it has no function of its own.
+// The interface to a message-passing library. The program and its module for MPI both include this
+// header; nothing in it needs to be linked.
 
 #include <cstddef>
 #include <span>

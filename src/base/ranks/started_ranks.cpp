@@ -77,7 +77,7 @@ std::unique_ptr<Ranks> started_ranks(const std::string& version)
 
 std::string bound_cores(const Ranks& ranks)
 {
-    // What started the ranks is not bound itself.
+    // The parent process, mpirun or a daemon of it, is not bound to cores.
     const int own = cores_of(0), all = cores_of(getppid());
     if (own * int(ranks.local_count()) >= all)
         return {};

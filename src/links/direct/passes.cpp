@@ -13,7 +13,7 @@
 namespace lumel {
 namespace {
 
-/// Of a rank.
+/// Blocks that each rank traces per step.
 constexpr std::size_t kBlocksPerStep = 64;
 /// Neighbours on each side in the order of lumels that are compared for the sources they see.
 constexpr std::size_t kComparedNeighbours = 4;

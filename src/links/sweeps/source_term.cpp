@@ -288,8 +288,8 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
             returned[p] += count.returned;
         }
     });
-    // Weights of guided rays equal their number only in the mean: in a gap, more would make light
-    // grow from sweep to sweep.
+    // Weights of guided rays add up to their number only on average. In a narrow gap, where most
+    // rays return, a larger sum would make light grow from sweep to sweep.
     for (std::size_t p = 0; p < parts.count(); ++p)
         sum.rays[p] = std::max(sum.rays[p], returned[p]);
     share_rows(work, [&](auto& archive, std::uint32_t i) {

@@ -27,7 +27,7 @@ struct SourceTerm {
     /// w: 0, so that sweeps can add to it.
     std::vector<glm::vec4> light;
     /// [P] Σ of the weights of rays that count: not those to sub-lumels without any. Where all
-    /// count, their number; but at least the weights of near links.
+    /// count, their number; but at least Σ of weights × reflectances of near links.
     std::vector<float> rays;
     bool is_closed = false;  ///< all rays hit reflecting surfaces
 

@@ -228,7 +228,7 @@ double LinkRadiosity::make_sum_exact(std::vector<LampLight>& lamps) const
 std::optional<LinkRadiosity::LampsLight>
 LinkRadiosity::light_of_lamps(const std::function<bool(double)>& progress)
 {
-    work_.ranks = nullptr;  // the others have no part in this
+    work_.ranks = nullptr;  // only the first rank gets here
     const std::size_t count = work_.lumels().size();
     LampsLight found{std::vector<LampLight>(lamp_count())};
     for (LampLight& lamp : found.lamps)

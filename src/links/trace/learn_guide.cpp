@@ -26,7 +26,8 @@ constexpr std::size_t kCubeSides = 6;
 /// Blocks of links per task.
 constexpr std::size_t kGuideBlocksPerTask = 4;
 
-/// Those of `lumels` that face the same way, in equal parts: places in the list.
+/// Groups of `lumels` that face the same way, as indices into `lumels`. Those that face one way are
+/// split evenly into groups of at most kMaxGroup.
 std::vector<std::vector<std::size_t>> groups_of(const WorldLumels& world,
                                                 std::span<const std::uint32_t> lumels)
 {

@@ -146,7 +146,7 @@ TEST(LinkSolver, SolvesRoundsOfWeightedLinks)
     EXPECT_LE(distance_from_limit(room), kSolved);
 }
 
-/// Else light would grow from sweep to sweep between bright walls of a gap.
+/// Otherwise light would grow from sweep to sweep in a gap between bright walls.
 TEST(LinkSolver, TakesNoMoreThanAllRaysFromBesideASubLumel)
 {
     TracedRoom room;
