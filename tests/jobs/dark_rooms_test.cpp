@@ -165,6 +165,27 @@ TEST_P(ClosedPair, KeepsTheLightOfALampInItsRoom)
     EXPECT_GT(count, 50u);
 }
 
+/// Lumels of the floor that are mostly in the dark room show the light of their sliver in the lit
+/// one, too.
+TEST(LumelAcrossAWall, HasTheMeanLightOfItsArea)
+{
+    const Rooms rooms{.wall = 0.0f, .density = 5.2f};
+    const SolveScene world(two_rooms(rooms), {.texels_per_metre = rooms.density});
+    const std::vector<glm::vec3> light = solve(world, 0.1).irradiance;
+    const std::vector<glm::vec3> truth = reference_irradiance(
+        world.scene, world.rays, world.lumels, {.samples_per_lumel = 512, .seed = 11});
+    double found = 0.0, wanted = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const Lumel& lumel = world.lumels.lumels[i];
+        if (lumel.normal.y > 0.5f && std::abs(lumel.position.x - kWide) < 0.5f * lumel.size) {
+            found += double(lumel.area) * double(light[i].g);
+            wanted += double(lumel.area) * double(truth[i].g);
+        }
+    }
+    EXPECT_GT(wanted, 0.0);
+    EXPECT_NEAR(found / wanted, 1.0, 0.02);
+}
+
 /// What is not known must not count as dark: few rays leave some parts of cut lumels without any,
 /// and of walls that shine, cells see parts that the middle wall hides from others.
 TEST(TwoRooms, GlowAsAFurnaceDoesWithFewRays)

@@ -107,8 +107,8 @@ void for_each_corner(const WorldLumels& world, std::size_t i, const Visit& visit
 
 /// Occlusion of a lumel by geometry just above it.
 struct Cover {
-    /// A corner of a flat lumel does not see the nearest cell: geometry covers a sliver of it that
-    /// no cell's point is in.
+    /// A corner does not see the nearest cell: geometry covers a sliver of the lumel that no cell's
+    /// point is in.
     bool has_sliver = false;
     /// Rays along the normal, as long as the lumel's side, meet something from some points of a
     /// flat lumel but not from others.
@@ -120,8 +120,12 @@ Cover find_cover(const WorldLumels& world, const RayScene& scene, std::size_t i,
 {
     const WorldLumel& lumel = world[i];
     Cover cover;
-    if (!lumel.flat)
+    if (!lumel.flat) {
+        for_each_corner(world, i, [&](const LumelPoint& corner) {
+            cover.has_sliver = cover.has_sliver || seen.nearest(corner) == kNoCell;
+        });
         return cover;
+    }
     cast.rays.clear();
     for_each_corner(world, i, [&](const LumelPoint& corner) {
         cast.rays.push_back(seen.ray_to(corner, seen.points().nearest(corner.position)));
@@ -155,12 +159,12 @@ std::uint32_t number_parts(const CellPoints& points, const Joined& joined, std::
     std::uint32_t parts = 0;
     for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
         if (points.has(c) && joined.root(c) == c)
-            number[c] = std::min(parts++, kMaxParts - 1);
+            number[c] = std::min(parts++, kMaxWithCells - 1);
     for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c) {
         const std::uint32_t used = points.has(c) ? c : nearest_used(points, c);
         code |= number[joined.root(used)] << 2 * c;
     }
-    return std::clamp(parts, 1u, kMaxParts);
+    return std::clamp(parts, 1u, kMaxWithCells);
 }
 
 }  // namespace
@@ -227,9 +231,15 @@ SeenCells::SeenCells(const WorldLumels& world, const Cells& cells, const RayScen
     : rays_(rays),
       points_(cell_points(world, cells, i)),
       flat_(world[i].flat),
+      up_(world[i].normal),
+      top_(-std::numeric_limits<float>::max()),
       ray_offset_(std::max(kAboveCell * world[i].size, ray_offset_for(world[i].reach))),
       seed_(seed)
 {
+    for (auto facet = world.begin(world[i]); facet != world.end(world[i]); ++facet)
+        for (int k = 0; k < facet->count; ++k)
+            top_ = std::max(top_, glm::dot(facet->corner[k], up_));
+    top_ += 2.0f * ray_offset_;
 }
 
 RaySpan SeenCells::ray_to(const LumelPoint& from, std::uint32_t cell) const
@@ -260,13 +270,22 @@ std::uint32_t SeenCells::nearest(const LumelPoint& from) const
     for (std::size_t n = 0; n < count; ++n)
         if (by_distance[n].second != own && sees(from, by_distance[n].second))
             return by_distance[n].second;
-    return kNoCell;
+    return !flat_ && points_.has(own) && sees_over(from, own) ? own : kNoCell;
 }
 
-std::uint32_t SeenCells::nearest_or(const LumelPoint& from, std::uint32_t own) const
+/// True if nothing stands between the point and the cell but the lumel itself: on a path above it.
+bool SeenCells::sees_over(const LumelPoint& from, std::uint32_t cell) const
 {
-    const std::uint32_t cell = nearest(from);
-    return cell == kNoCell && !flat_ ? own : cell;
+    const auto above = [&](const LumelPoint& point) {
+        return point.position + (top_ - glm::dot(point.position, up_)) * up_;
+    };
+    const auto lifted = [&](const LumelPoint& point) {
+        return point.position + ray_offset_ * point.normal;
+    };
+    const LumelPoint& to = points_.point[cell];
+    return rays_.sees(lifted(from), above(from), 0.0f, seed_) &&
+           rays_.sees(above(from), above(to), 0.0f, seed_) &&
+           rays_.sees(above(to), lifted(to), 0.0f, seed_);
 }
 
 std::uint32_t SubLumels::seed_of(std::size_t lumel) const
@@ -289,7 +308,7 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
       seed_(seed),
       first_(world.size(), 0),
       flags_(world.size(), 0),
-      parts_(world.size(), 1),
+      with_cells_(world.size(), 1),
       code_(world.size(), 0)
 {
     const auto end_of = [&](std::size_t block) {
@@ -305,7 +324,7 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
             Joined joined;
             for (const auto& [dx, dy] : {std::pair(1, 0), {0, 1}, {1, 1}, {-1, 1}})
                 join_along(seen, dx, dy, rays, cast, joined);
-            parts_[i] = std::uint8_t(number_parts(seen.points(), joined, code_[i]));
+            with_cells_[i] = std::uint8_t(number_parts(seen.points(), joined, code_[i]));
             const Cover cover = find_cover(world, rays, i, seen, seed_of(i), cast);
             if (is_cut(i) || cover.has_sliver)
                 flags_[i] |= kHasHidden;
@@ -315,11 +334,11 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
     });
     share_blocks(ranks, 0, blocks, [&](auto& archive, std::size_t b) {
         for (std::size_t i = b * kCellsPerTask; i < end_of(b); ++i)
-            archive(flags_[i], parts_[i], code_[i]);
+            archive(flags_[i], with_cells_[i], code_[i]);
     });
     for (const std::uint32_t i : order) {
         first_[i] = std::uint32_t(lumel_.size());
-        lumel_.insert(lumel_.end(), parts_[i], i);
+        lumel_.insert(lumel_.end(), end(i) - first_[i], i);
     }
 }
 

@@ -4,7 +4,8 @@
 // One radiosity per lumel leaks light through walls. A lumel half in the sun spreads its mean to
 // both sides of the shadow's edge, and one that passes under a wall spreads light from room to
 // room. So each lumel has a grid of cells, and cells whose points see each other form a sub-lumel
-// with its own irradiance.
+// with its own irradiance. Points that see no cell, as in a sliver behind a wall's foot, form one
+// that receives light but sends none: rays that hit it are reflected.
 
 #include <algorithm>
 #include <array>
@@ -22,8 +23,10 @@ class Ranks;
 
 /// Cells per side of a lumel, and per lumel.
 inline constexpr int kCellSide = 4, kCells = kCellSide * kCellSide;
-/// Maximum sub-lumels of a lumel; the last one takes the rest.
-inline constexpr std::uint32_t kMaxParts = 4;
+/// Maximum sub-lumels of a lumel that have cells; the last one takes the rest.
+inline constexpr std::uint32_t kMaxWithCells = 4;
+/// Maximum sub-lumels of a lumel, with that of its hidden points.
+inline constexpr std::uint32_t kMaxParts = kMaxWithCells + 1;
 
 /// The grid of cells of each lumel: a bounding box of its pieces in their plane.
 class Cells {
@@ -89,14 +92,15 @@ public:
     RaySpan ray_to(const LumelPoint& from, std::uint32_t cell) const;
     /// The nearest one, or kNoCell.
     std::uint32_t nearest(const LumelPoint& from) const;
-    /// The nearest one; else kNoCell if the lumel is flat, as behind a wall's foot, or the given
-    /// one if not: the point may be in a groove.
-    std::uint32_t nearest_or(const LumelPoint& from, std::uint32_t own) const;
 
 private:
+    bool sees_over(const LumelPoint& from, std::uint32_t cell) const;
+
     const RayScene& rays_;
     CellPoints points_;
     bool flat_;
+    glm::vec3 up_;      ///< unit
+    float top_;         ///< height along it above which the lumel itself is not [m]
     float ray_offset_;  ///< [m]
     std::uint32_t seed_;
 };
@@ -121,10 +125,15 @@ public:
 
     std::size_t count() const { return lumel_.size(); }  ///< P, the total number of sub-lumels
     std::uint32_t first(std::size_t lumel) const { return first_[lumel]; }
-    std::uint32_t end(std::size_t lumel) const { return first_[lumel] + parts_[lumel]; }
-    bool is_cut(std::size_t lumel) const { return parts_[lumel] > 1; }
+    std::uint32_t end(std::size_t lumel) const
+    {
+        return first_[lumel] + with_cells_[lumel] + (has_hidden(lumel) ? 1 : 0);
+    }
+    /// Number of its sub-lumels that have cells.
+    std::uint32_t with_cells(std::size_t lumel) const { return with_cells_[lumel]; }
+    bool is_cut(std::size_t lumel) const { return with_cells_[lumel] > 1; }
     /// True if some of its points do not see their own cell: if it is cut, or a sliver of it is
-    /// behind other geometry.
+    /// behind other geometry. The last sub-lumel is that of points that see no cell.
     bool has_hidden(std::size_t lumel) const { return (flags_[lumel] & kHasHidden) != 0; }
     /// True if geometry closer than the lumel's size covers some of it, but not all: light can
     /// change there more than cells tell, as where a lamp hangs just below a ceiling.
@@ -133,10 +142,10 @@ public:
     bool is_detailed(std::size_t lumel) const { return flags_[lumel] != 0; }
     /// Of a lumel with hidden points.
     SeenCells seen_cells(std::size_t lumel) const;
-    /// The sub-lumel of a cell.
+    /// The sub-lumel of a cell, or of kNoCell.
     std::uint32_t part(std::size_t lumel, std::uint32_t cell) const
     {
-        return first_[lumel] + (code_[lumel] >> 2 * cell & 3u);
+        return cell == kNoCell ? end(lumel) - 1 : first_[lumel] + (code_[lumel] >> 2 * cell & 3u);
     }
     std::uint32_t lumel(std::size_t part) const { return lumel_[part]; }
 
@@ -150,11 +159,11 @@ private:
     const RayScene& rays_;
     const Lumels& lumels_;
     std::uint32_t seed_;
-    std::vector<std::uint32_t> first_;  ///< [N]
-    std::vector<std::uint8_t> flags_;   ///< [N]
-    std::vector<std::uint8_t> parts_;   ///< [N] number of sub-lumels
-    std::vector<std::uint32_t> code_;   ///< [N] two bits per cell
-    std::vector<std::uint32_t> lumel_;  ///< [P]
+    std::vector<std::uint32_t> first_;      ///< [N]
+    std::vector<std::uint8_t> flags_;       ///< [N]
+    std::vector<std::uint8_t> with_cells_;  ///< [N] number of sub-lumels
+    std::vector<std::uint32_t> code_;       ///< [N] two bits per cell
+    std::vector<std::uint32_t> lumel_;      ///< [P]
 };
 
 }  // namespace lumel

@@ -213,12 +213,9 @@ void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t 
             const Choice choice = alone ? Choice{to.source, 1.0f}
                                         : choose(*to.rest, samples.stratified(kLampChoicePair).x);
             const std::uint32_t cell =
-                seen ? seen->nearest_or({start.position, start.normal}, start.cell) : start.cell;
-            if (cell == kNoCell)
-                wave.looks.add({}, {});
-            else
-                look(start, choice.source, choice.factor, samples.stratified(kLampPair),
-                     samples.bits(kLampPair), wave.looks);
+                seen ? seen->nearest({start.position, start.normal}) : start.cell;
+            look(start, choice.source, choice.factor, samples.stratified(kLampPair),
+                 samples.bits(kLampPair), wave.looks);
             wave.cells.push_back(cell);
         }
     }
@@ -245,16 +242,20 @@ void DirectEstimator::take(const Group& group, std::uint32_t i, const RayBatch& 
     const auto part = [&](std::uint32_t cell) { return part_of(i, cell); };
     OfLumel light;
     std::array<SourceEstimate, kCells> of_cells;
-    std::array<SourceEstimate, kMaxParts> of_parts;
+    std::array<SourceEstimate, kMaxWithCells> of_parts;
     SourceEstimate of_both;
     for (std::uint32_t h = 0; h < 2; ++h) {
         SourceEstimate sums;
         const std::uint32_t first = group.first + h * group.rays;
-        for (std::uint32_t look = first; look < first + group.rays; ++look)
-            if (const std::uint32_t cell = wave.cells[look]; cell != kNoCell)
-                for (SourceEstimate* into :
-                     {&sums, &of_both, &of_cells[cell], &of_parts[part(cell)]})
+        for (std::uint32_t look = first; look < first + group.rays; ++look) {
+            const auto add_to = [&](std::initializer_list<SourceEstimate*> estimates) {
+                for (SourceEstimate* into : estimates)
                     into->add(wave.looks.sample(look), wave.looks.transmittance(look));
+            };
+            add_to({&sums, &of_both});
+            if (const std::uint32_t cell = wave.cells[look]; cell != kNoCell)
+                add_to({&of_cells[cell], &of_parts[part(cell)]});
+        }
         light.half[h] = sums.light();
     }
     found.rays += of_both.free + of_both.hidden;
@@ -263,8 +264,8 @@ void DirectEstimator::take(const Group& group, std::uint32_t i, const RayBatch& 
     if (of_both.free > 0)
         found.seen |= 1u << (group.alone ? group.source % 32 : 31);
     // The ratios of a few rays are biased: those of cells have the mean of their sub-lumel.
-    std::array<glm::vec3, kMaxParts> sum{};
-    std::array<float, kMaxParts> rays{};
+    std::array<glm::vec3, kMaxWithCells> sum{};
+    std::array<float, kMaxWithCells> rays{};
     for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c) {
         sum[part(c)] += float(of_cells[c].rays) * of_cells[c].light();
         rays[part(c)] += float(of_cells[c].rays);
@@ -290,7 +291,7 @@ void DirectEstimator::share_out(const Group& group, std::uint32_t i, const RayBa
 {
     struct OfCellsAndParts {
         OfCells cells{};
-        std::array<glm::vec3, kMaxParts> parts{};
+        std::array<glm::vec3, kMaxWithCells> parts{};
     };
     const bool by_cell = more_[i] > 0 || is_cut(i);
     // The last is of all lamps.
@@ -298,13 +299,11 @@ void DirectEstimator::share_out(const Group& group, std::uint32_t i, const RayBa
     std::vector<OfCellsAndParts> places(by_cell ? lamps_ + 1 : 0);
     for (std::uint32_t n = 0; n < 2 * group.rays; ++n) {
         const std::uint32_t look = group.first + n, cell = wave.cells[look];
-        if (cell == kNoCell)
-            continue;
         const SourceSample& sample = wave.looks.sample(look);
         const glm::vec3 sent = wave.looks.transmittance(look) * sample.irradiance;
         for (const std::size_t lamp : {std::size_t(of_lamps_->of_source[sample.source]), lamps_}) {
             halves[lamp][n / group.rays] += sent;
-            if (by_cell) {
+            if (by_cell && cell != kNoCell) {
                 places[lamp].cells[cell] += sent;
                 places[lamp].parts[part_of(i, cell)] += sent;
             }

@@ -29,7 +29,7 @@ bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const S
     std::size_t slots = 0, of_cut = 0;
     for (std::size_t n = 0; n < lumels.size(); ++n) {
         slots += block.rays[n];
-        of_cut += parts.is_cut(lumels[n]) ? block.rays[n] : 0;
+        of_cut += parts.has_hidden(lumels[n]) ? block.rays[n] : 0;
     }
     if (block.ends.size() != slots || block.from.size() != of_cut)
         return false;
@@ -50,14 +50,14 @@ bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const S
            std::ranges::find(block.probabilities, 0) == block.probabilities.end() &&
            std::all_of(block.ends.begin(), block.ends.end(), is_known) &&
            std::all_of(block.from.begin(), block.from.end(),
-                       [](std::uint8_t cell) { return cell < kCells; });
+                       [](std::uint8_t cell) { return cell <= kNoCell; });
 }
 
 }  // namespace
 
 LinkNumbers::LinkNumbers(std::size_t instances, std::size_t parts)
     : first_part_(std::uint32_t(kFirst + 2 * instances)),
-      count_(std::uint32_t(first_part_ + parts + 1))
+      count_(std::uint32_t(first_part_ + parts))
 {
     if (!fit(instances, parts))
         throw Error(ErrorKind::input, std::to_string(parts) + " lumels",

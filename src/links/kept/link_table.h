@@ -32,7 +32,7 @@ struct LinkEnd {
     friend bool operator==(const LinkEnd&, const LinkEnd&) = default;
 };
 
-/// Numbers of ends: some fixed ones, then two of each instance, then sub-lumels, then hidden().
+/// Numbers of ends: some fixed ones, then two of each instance, then sub-lumels.
 class LinkNumbers {
 public:
     static constexpr std::uint32_t kBelow = 0;  ///< left below its own surface: black
@@ -52,10 +52,7 @@ public:
     std::uint32_t lost_on(std::uint32_t instance) const { return kFirst + 2 * instance + 1; }
     std::uint32_t of_part(std::uint32_t part) const { return first_part_ + part; }
 
-    /// Begins where no cell of its lumel can be seen, as behind a wall's foot: does not count.
-    std::uint32_t hidden() const { return count_ - 1; }
-
-    bool is_part(std::uint32_t number) const { return number >= first_part_ && number < hidden(); }
+    bool is_part(std::uint32_t number) const { return number >= first_part_; }
     bool is_lost(std::uint32_t number) const
     {
         return number >= kFirst && number < first_part_ && (number - kFirst) % 2 == 1;
@@ -103,7 +100,7 @@ struct NearShare {
 struct LinkBlock {
     std::vector<std::uint16_t> rays;    ///< [lumels]
     std::vector<LinkEnd> ends;          ///< [slots]
-    std::vector<std::uint8_t> from;     ///< cells that the rays of cut lumels leave, in order
+    std::vector<std::uint8_t> from;     ///< cells that rays of lumels with hidden points leave
     std::vector<NearLink> near;         ///< by slot
     std::vector<NearLight> near_light;  ///< of these
     std::vector<NearShare> shares;      ///< by near link; empty unless lamps are kept apart
@@ -125,7 +122,7 @@ inline constexpr std::size_t kLinkBlock = 256;
 struct LinkRow {
     std::uint32_t first_slot;
     std::span<const LinkEnd> ends;
-    const std::uint8_t* from;  ///< [ends] cells, or null for lumels that are not cut
+    const std::uint8_t* from;  ///< [ends] cells or kNoCell; null: the lumel has no hidden points
     std::span<const NearLink> near;
     std::span<const NearLight> near_light;  ///< of these
     std::span<const NearShare> shares;      ///< of these
@@ -150,7 +147,7 @@ class LinkRows {
 public:
     explicit LinkRows(const LinkBlock& block) : block_(&block) {}
 
-    LinkRow next(bool is_cut)
+    LinkRow next(bool has_hidden)
     {
         const std::size_t rays = block_->rays[lumel_++];
         LinkRow row{.first_slot = slot_,
@@ -163,7 +160,7 @@ public:
                     .probabilities = nullptr};
         if (!block_->probabilities.empty())
             row.probabilities = block_->probabilities.data() + slot_;
-        if (is_cut) {
+        if (has_hidden) {
             row.from = block_->from.data() + from_;
             from_ += std::uint32_t(rays);
         }

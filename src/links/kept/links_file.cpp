@@ -34,8 +34,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
-// 6: guided rays
-constexpr std::uint64_t kVersion = 6;
+// 7: rays of hidden points have ends
+constexpr std::uint64_t kVersion = 7;
 constexpr std::uint32_t kMaxSide = 65536;  ///< side of an atlas [texels]
 constexpr std::uint32_t kWord = 64;        ///< [bits]
 

@@ -53,7 +53,7 @@ std::span<const LinkEnd> LinkTracer::Known::of(std::size_t i, std::size_t rays) 
 std::optional<LinkEnd> LinkTracer::still(LinkEnd stored, const Known& known) const
 {
     const std::uint32_t number = stored.number();
-    if (number == LinkNumbers::kNear || number == stored_.hidden() || known.changes.ends[number])
+    if (number == LinkNumbers::kNear || known.changes.ends[number])
         return std::nullopt;
     return stored_.is_part(number)
                ? LinkEnd::of(numbers_.of_part(parts_.part(stored_.part(number), stored.cell())),
@@ -97,7 +97,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         }
         std::optional<LinkEnd> end = known.empty() ? std::nullopt : still(known[k], *sending.known);
         const bool is_sky = end && end->number() == LinkNumbers::kSky;
-        if (end && !parts_.is_cut(i) && !is_sky && sending.known->changes.moved.empty()) {
+        if (end && !parts_.has_hidden(i) && !is_sky && sending.known->changes.moved.empty()) {
             wave.ends.push_back(*end);
             wave.from.push_back(0);
             continue;
@@ -106,12 +106,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
         if (parts_.has_hidden(i) && !seen)
             seen.emplace(parts_.seen_cells(i));
         const std::uint32_t cell =
-            seen ? seen->nearest_or({start.position, start.normal}, start.cell) : start.cell;
-        if (cell == kNoCell) {
-            wave.ends.push_back(LinkEnd::of(numbers_.hidden()));
-            wave.from.push_back(0);
-            continue;
-        }
+            seen ? seen->nearest({start.position, start.normal}) : start.cell;
         std::uint32_t along = 0;
         glm::vec3 direction;
         if (shared) {
@@ -308,7 +303,7 @@ void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
                 (wave.probabilities.empty() ? 1.0f
                                             : RayGuide::weight(wave.probabilities[sky->slot])) *
                 sky->light;
-        if (parts_.is_cut(i))
+        if (parts_.has_hidden(i))
             block.from.insert(block.from.end(), wave.from.begin() + begin, wave.from.begin() + end);
         block.rays.push_back(std::uint16_t(end - begin));
         block.ends.insert(block.ends.end(), wave.ends.begin() + begin, wave.ends.begin() + end);

@@ -42,7 +42,7 @@ public:
         LinkRows rows(block);
         for (std::size_t o = begin; o < end; ++o) {
             const std::uint32_t i = work_.order[o];
-            const LinkRow row = rows.next(parts_.is_cut(i));
+            const LinkRow row = rows.next(parts_.has_hidden(i));
             for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p)
                 if (row.from)
                     add(p, row, [&](std::size_t k) {

@@ -66,8 +66,9 @@ LevelCorrection::LevelCorrection(const LevelGroups& groups, const LinkWork& work
 {
     double whole = 0.0;
     for (std::uint32_t p = 0; p < areas_.size(); ++p) {
-        const std::uint32_t i = parts.lumel(p);
-        areas_[p] = work.lumels()[i].area / float(parts.end(i) - parts.first(i));
+        const std::uint32_t i = parts.lumel(p), with_cells = parts.with_cells(i);
+        areas_[p] =
+            p < parts.first(i) + with_cells ? work.lumels()[i].area / float(with_cells) : 0.0f;
         whole += double(areas_[p]);
     }
     const auto scale = float(double(areas_.size()) / std::max(whole, kMinArea));
@@ -145,7 +146,7 @@ void LevelCorrection::count_links(const Links& links)
                     LinkRows rows(round[b]);
                     const std::size_t end = std::min((b + 1) * kLinkBlock, order.size());
                     for (std::size_t o = b * kLinkBlock; o < end; ++o)
-                        count_row(links, order[o], rows.next(links.parts.is_cut(order[o])),
+                        count_row(links, order[o], rows.next(links.parts.has_hidden(order[o])),
                                   sums[s]);
                 }
     });

@@ -34,7 +34,7 @@ void for_each_row(const LinkWork& work, const SubLumels& parts, const LinkTable&
                 LinkRows rows(round[b]);
                 const std::size_t end = std::min((b + 1) * kLinkBlock, work.order.size());
                 for (std::size_t o = b * kLinkBlock; o < end; ++o)
-                    visit(rows.next(parts.is_cut(work.order[o])), work.order[o]);
+                    visit(rows.next(parts.has_hidden(work.order[o])), work.order[o]);
             }
     };
     parallel_for_own(work.ranks, 0, blocks_of(work), kSourceBlocksPerTask, visit_blocks);
@@ -51,22 +51,21 @@ void share_rows(const LinkWork& work, const State& state)
     });
 }
 
-/// [P] 1 for sub-lumels of cut lumels from which no ray was sent: what they receive is not known.
+/// [P] 1 for sub-lumels from which no ray was sent: what they receive is not known.
 std::vector<char> unknown_parts(const LinkWork& work, const SubLumels& parts,
-                                const LinkNumbers& numbers, const LinkTable& links)
+                                const LinkTable& links)
 {
     std::vector<char> unknown(parts.count(), 0);
     for (std::size_t i = 0; i < work.order.size(); ++i)
-        if (parts.is_cut(i))
+        if (parts.has_hidden(i))
             std::fill(unknown.begin() + parts.first(i), unknown.begin() + parts.end(i), char(1));
     for_each_row(work, parts, links, [&](const LinkRow& row, std::uint32_t i) {
-        if (parts.is_cut(i))
+        if (parts.has_hidden(i))
             for (std::size_t k = 0; k < row.ends.size(); ++k)
-                if (row.ends[k].number() != numbers.hidden())
-                    unknown[parts.first(i) + row.leaves(parts, i, k)] = 0;
+                unknown[parts.first(i) + row.leaves(parts, i, k)] = 0;
     });
     share_rows(work, [&](auto& archive, std::uint32_t i) {
-        for (std::uint32_t p = parts.first(i); parts.is_cut(i) && p < parts.end(i); ++p)
+        for (std::uint32_t p = parts.first(i); parts.has_hidden(i) && p < parts.end(i); ++p)
             archive(unknown[p]);
     });
     return unknown;
@@ -238,7 +237,7 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
 {
     SourceTerm sum{std::vector<glm::vec4>(parts.count() * Lanes, glm::vec4(0.0f)),
                    std::vector<float>(parts.count(), 0.0f)};
-    const std::vector<char> unknown = unknown_parts(work, parts, numbers, links);
+    const std::vector<char> unknown = unknown_parts(work, parts, links);
     std::vector<char> loses(work.order.size(), 0);
     std::vector<float> returned(parts.count(), 0.0f);
     for_each_row(work, parts, links, [&](const LinkRow& row, std::uint32_t i) {
@@ -262,8 +261,7 @@ SourceTerm sum_over_rays(const LinkWork& work, const SubLumels& parts, const Lin
                 passed = std::max({near.weight.r, near.weight.g, near.weight.b});
                 found = near_light(reflected, near.light, near.shares);
             }
-            if (end.number() == numbers.hidden() ||
-                (numbers.is_part(end.number()) && unknown[numbers.part(end.number())])) {
+            if (numbers.is_part(end.number()) && unknown[numbers.part(end.number())]) {
                 counts[leaves].is_all = false;
                 continue;
             }
@@ -345,8 +343,7 @@ RayDistances find_distances(const LinkWork& work, const SubLumels& parts,
     for (const LinkTable* links : tables)
         for_each_row(work, parts, *links, [&](const LinkRow& row, std::uint32_t i) {
             const WorldLumel& lumel = work.world[i];
-            rays[i] += std::uint32_t(std::ranges::count_if(
-                row.ends, [&](LinkEnd end) { return end.number() != numbers.hidden(); }));
+            rays[i] += std::uint32_t(row.ends.size());
             for (std::size_t k = 0; k < row.ends.size(); ++k) {
                 const LinkEnd end = row.ends[k];
                 if (!numbers.is_part(end.number()))

@@ -59,7 +59,7 @@ void add_near(LaneLight<Lanes>& sum, const LinkRow& row, const NearLink& near,
         sum[lane] += weight * sent[near.end.number()][lane] * passed;
 }
 
-/// Adds the light along the rays of a row to the sub-lumels of lumel i, which is cut.
+/// Adds the light along the rays of a row to the sub-lumels of lumel i, which has hidden points.
 template <std::size_t Lanes>
 void add_row(const LinkRow& row, const SubLumels& parts, std::size_t i, const Light<Lanes>& sent,
              std::array<LaneLight<Lanes>, kMaxParts>& sums)
@@ -70,7 +70,7 @@ void add_row(const LinkRow& row, const SubLumels& parts, std::size_t i, const Li
         add_near(sums[row.leaves(parts, i, near.slot - row.first_slot)], row, near, sent);
 }
 
-/// `sum` with the light along the rays of a row, of a lumel that is not cut.
+/// `sum` with the light along the rays of a row, of a lumel without hidden points.
 template <std::size_t Lanes>
 LaneLight<Lanes> sum_of_row(const LinkRow& row, const Light<Lanes>& sent, LaneLight<Lanes> sum)
 {
@@ -288,7 +288,7 @@ private:
         for (std::size_t o = b * kLinkBlock; o < end; ++o) {
             const std::uint32_t i = order[o], first = parts.first(i), last = parts.end(i);
             std::array<LaneLight<Lanes>, kMaxParts> sums;
-            if (parts.is_cut(i)) {
+            if (parts.has_hidden(i)) {
                 for (std::uint32_t p = first; p < last; ++p)
                     sums[p - first] = source(p);
                 for (LinkRows& rows : rounds)

@@ -68,7 +68,7 @@ void FinalGather::take(std::size_t last)
         const std::size_t end = std::min((b + 1) * kLinkBlock, sent_.size());
         for (std::size_t n = b * kLinkBlock; n < end; ++n) {
             const std::uint32_t i = direct_.work().order[n];
-            take(rows.next(parts_.is_cut(i)), i);
+            take(rows.next(parts_.has_hidden(i)), i);
         }
         block = {};
     }
@@ -78,7 +78,7 @@ void FinalGather::take(std::size_t last)
 void FinalGather::take(const LinkRow& row, std::size_t i)
 {
     const auto add = [&](LinkEnd end, const glm::vec3& weight, const glm::vec3& light) {
-        if (numbers_.is_lost(end.number()) || end.number() == numbers_.hidden())
+        if (numbers_.is_lost(end.number()))
             return;
         ++rays_[i];
         sum_[i] += light;

@@ -121,7 +121,7 @@ LinkRadiosity::learn_block(std::size_t b, const std::array<SentLight, kSolutions
     for (std::uint32_t k = 0; k < kSolutions; ++k) {
         LinkRows all(links_[k]->rounds.front()[b]);
         for (const std::uint32_t i : lumels)
-            rows[k].push_back(all.next(parts_->is_cut(i)));
+            rows[k].push_back(all.next(parts_->has_hidden(i)));
     }
     std::vector<LearntGroup> learnt;
     for (const std::vector<std::size_t>& group : groups_of(work_.world, lumels)) {

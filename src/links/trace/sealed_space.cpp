@@ -46,7 +46,7 @@ void SealedSpace::join(const LinkTable& links, std::size_t table)
             const std::size_t end = std::min((b + 1) * kLinkBlock, work_.order.size());
             for (std::size_t o = b * kLinkBlock; o < end; ++o) {
                 const std::uint32_t i = work_.order[o];
-                join_row(i, rows.next(parts_.is_cut(i)));
+                join_row(i, rows.next(parts_.has_hidden(i)));
             }
         }
 }

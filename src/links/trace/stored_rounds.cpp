@@ -80,8 +80,6 @@ StoredLinks::Round LinkRadiosity::stored_round(std::size_t r, const LinkNumbers&
         round.rays[order[o]] = links_[0]->rounds[r][o / kLinkBlock].rays[o % kLinkBlock];
     const std::vector<std::size_t> first = first_rays(round.rays);
     const auto as_stored = [&](LinkEnd end) {
-        if (end.number() == numbers_->hidden())
-            return LinkEnd::of(stored.hidden());
         return numbers_->is_part(end.number())
                    ? LinkEnd::of(stored.of_part(parts_->lumel(numbers_->part(end.number()))),
                                  end.cell())
@@ -110,10 +108,7 @@ std::uint64_t LinkRadiosity::traced() const
 std::uint64_t LinkRadiosity::sent() const
 {
     std::uint64_t rays = 0;
-    for_each_block([&](const LinkBlock& block) {
-        rays += std::uint64_t(std::ranges::count_if(
-            block.ends, [&](LinkEnd end) { return end.number() != numbers_->hidden(); }));
-    });
+    for_each_block([&](const LinkBlock& block) { rays += block.ends.size(); });
     return rays;
 }
 

@@ -63,6 +63,34 @@ TEST_P(CellsOfStrips, AreOneSubLumelInTheOpen)
     EXPECT_FALSE(SubLumels(world, cells, rays, made.lumels, {0}, 1).is_cut(0));
 }
 
+/// A wall 4 % from the edge of a lumel hides a sliver without a cell.
+TEST(Sliver, IsASubLumelWithoutCells)
+{
+    Quad floor;  // faces +z
+    floor.res_u = floor.res_v = 1;
+    Quad wall;
+    wall.corner = {0.04f, 0.0f, 0.0f};
+    wall.edge_u = {0.0f, 1.0f, 0.0f};
+    wall.edge_v = {0.0f, 0.0f, 1.0f};
+    wall.double_sided = true;
+    const HandMade made = support::make_quads({floor, wall});
+    const RayScene rays(made.scene);
+    const WorldLumels world(made.scene, rays, made.lumels);
+    const Cells cells(world);
+    const SubLumels parts(world, cells, rays, made.lumels, {0, 1}, 1);
+    ASSERT_TRUE(parts.has_hidden(0));
+    EXPECT_FALSE(parts.is_cut(0));
+    EXPECT_EQ(parts.end(0) - parts.first(0), 2u);
+    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
+        EXPECT_EQ(parts.part(0, c), parts.first(0));
+    const SeenCells seen = parts.seen_cells(0);
+    const glm::vec3 up(0.0f, 0.0f, 1.0f);
+    const std::uint32_t cell = seen.nearest({{0.02f, 0.5f, 0.0f}, up});
+    EXPECT_EQ(cell, kNoCell);
+    EXPECT_EQ(parts.part(0, cell), parts.end(0) - 1);
+    EXPECT_NE(seen.nearest({{0.06f, 0.5f, 0.0f}, up}), kNoCell);
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, CellsOfStrips, testing::Values(1, 2, 3, 5, 8));
 
 }  // namespace

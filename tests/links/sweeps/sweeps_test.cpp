@@ -52,7 +52,7 @@ std::vector<Link> links_of(const TracedRoom& room)
                 const std::uint32_t lumel = room.work.order[b * kLinkBlock + n];
                 for (std::size_t k = 0; k < round[b].rays[n]; ++k, ++slot) {
                     const std::uint32_t cell =
-                        room.parts.is_cut(lumel) ? round[b].from[left++] : 0u;
+                        room.parts.has_hidden(lumel) ? round[b].from[left++] : 0u;
                     const std::uint32_t from = room.parts.part(lumel, cell);
                     const double of_ray =
                         round[b].probabilities.empty()
