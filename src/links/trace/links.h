@@ -128,9 +128,8 @@ public:
                                        std::span<Estimates> reflected);
     /// Links to store for a later run, after a round has ended. hash: Scene::hash.
     StoredLinks kept(const std::string& hash) const;
-    /// Rays that lumels have sent, without the known ones.
-    std::uint64_t traced() const;
-    std::uint64_t sent() const;  ///< all that begin in sight
+    std::uint64_t sent() const;    ///< rays of lumels
+    std::uint64_t traced() const;  ///< those whose ends were not known
 
     void write_state(StateWriter& writer) override;
     void read_state(StateReader& reader) override;
@@ -192,7 +191,10 @@ private:
     void send_first_rays(double most);
     std::vector<double> gain_of_guide(const std::vector<double>& sent) const;
     std::vector<double> rays_by_deviation(double mean, const std::vector<double>& sent,
-                                          const std::vector<double>& gain);
+                                          const std::vector<double>& deviation,
+                                          const std::vector<double>& gain) const;
+    void add_rays_of_noisy(const std::vector<double>& sent, const std::vector<double>& deviation,
+                           const std::vector<double>& gain, std::vector<double>& rays) const;
     void add_rays_of_charts(const std::vector<double>& sent, const std::vector<double>& gain,
                             std::vector<double>& rays);
     void share_out_rays(double most);

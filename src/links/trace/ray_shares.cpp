@@ -18,6 +18,9 @@ constexpr std::uint16_t kFirstOfCut = 32;
 constexpr double kMostGain = 3.0;
 /// Rays that a limit leaves after a round, relative to all so far, that are not worth another.
 constexpr double kTooFew = 0.05;
+/// Relative noise above which a lumel gets more rays than the errors over all lumels ask for; the
+/// most that those add, relative to all rays so far; and to the lumel's.
+constexpr double kNoisyLumel = 0.04, kShareOfNoisy = 0.15, kMostOfNoisy = 8.0;
 /// Bisection steps for the rays that all lumels add.
 constexpr int kFillSteps = 24;
 /// Minimum brightness in ray allocation, relative to the mean.
@@ -165,12 +168,12 @@ void LinkRadiosity::send_first_rays(double most)
 /// filled up to that. Some rays are uniform, since lumels whose rays have not found a light yet
 /// seem noiseless.
 std::vector<double> LinkRadiosity::rays_by_deviation(double mean, const std::vector<double>& sent,
-                                                     const std::vector<double>& gain)
+                                                     const std::vector<double>& deviation,
+                                                     const std::vector<double>& gain) const
 {
     std::vector<double> rays(sent.size(), 0.0);
     if (!(mean > 0.0))
         return rays;
-    const std::vector<double> deviation = deviation_of_ray(sent, weights());
     double lit = 0.0, widest = 0.0;
     for (std::size_t i = 0; i < deviation.size(); ++i)
         if (!work_.is_buried(i)) {
@@ -192,6 +195,31 @@ std::vector<double> LinkRadiosity::rays_by_deviation(double mean, const std::vec
     for (std::size_t i = 0; i < rays.size(); ++i)
         rays[i] = kEvenShare * mean + guided_rays(sent[i], sent[i] + added(i, scale), gain[i]);
     return rays;
+}
+
+/// Raises the rays that the noisiest lumels add to `sent`. They are few, as in the corners of a
+/// room, but an eye sees each.
+void LinkRadiosity::add_rays_of_noisy(const std::vector<double>& sent,
+                                      const std::vector<double>& deviation,
+                                      const std::vector<double>& gain,
+                                      std::vector<double>& rays) const
+{
+    if (!(target_eye_error_ > 0.0) || adapted_.empty() || !(mean_light_ > 0.0))
+        return;
+    // √(Σ d² / 3) / (Σ adapted / 3), as in estimate_for_eye(); weights() are of mean_light_.
+    const double quiet = kNoisyLumel * mean_light_ / std::sqrt(3.0);
+    const auto wanted = [&](std::size_t i, double share) {
+        const double ratio = deviation[i] / quiet;
+        return sent[i] + share * std::clamp(ratio * ratio - sent[i], 0.0, kMostOfNoisy * sent[i]);
+    };
+    double all = 0.0, most = 0.0;
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+        all += sent[i];
+        most += wanted(i, 1.0) - sent[i];
+    }
+    const double share = std::min(1.0, kShareOfNoisy * all / std::max(most, 1.0));
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        rays[i] = std::max(rays[i], guided_rays(sent[i], wanted(i, share), gain[i]));
 }
 
 /// Raises the rays that lumels add to `sent` on charts whose visible noise is above its target;
@@ -225,8 +253,12 @@ void LinkRadiosity::share_out_rays(double most)
 {
     const std::vector<double> sent = rays_so_far();
     const std::vector<double> gain = gain_of_guide(sent);
-    std::vector<double> rays = rays_by_deviation(std::min(more_rays(), most), sent, gain);
+    const std::vector<double> deviation = deviation_of_ray(sent, weights());
+    std::vector<double> rays =
+        rays_by_deviation(std::min(more_rays(), most), sent, deviation, gain);
     add_rays_of_charts(sent, gain, rays);
+    if (round_ == 1 && std::ranges::any_of(rays, [](double more) { return more > 0.0; }))
+        add_rays_of_noisy(sent, deviation, gain, rays);
     double sum = 0.0, lit = 0.0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         sum += rays[i];
