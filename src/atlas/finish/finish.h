@@ -37,15 +37,15 @@ FinishedMaps finish_maps(const Scene& scene, const Atlas& atlas, const Lumels& l
                          std::span<const glm::vec3> light,
                          std::span<const std::vector<glm::vec3>> layers);
 
-/// The visible lumel of each texel [height][width], or kNoLumel: if both sides share the texel, the
-/// mean of `light` decides, as in to_map. light [N].
+/// The visible lumel of each texel [height][width], or kNoLumel: if both sides share the texel,
+/// `light` decides, as values do in to_map. light [N].
 std::vector<std::uint32_t> shown_lumels(const Lumels& lumels, std::span<const glm::vec3> light);
 
 /// Writes one value per lumel into the atlas: RGB = value, A = coverage (0 outside surfaces, else
 /// at least 1/255, so that covered texels remain marked in 8 or 16 bits). If both sides of a
-/// surface share their texels, each chart shows the side of the brighter mean value; the mean is by
-/// area over open lumels, and equal sides show the front. With Lumels::shows_front they show the
-/// front. values [N]: per lumel, e.g. irradiance [lx].
+/// surface share their texels, each chart shows the side of the larger mean square, by area over
+/// open lumels; equal sides show the front. With Lumels::shows_front they show the front. values
+/// [N]: per lumel, e.g. irradiance [lx].
 Image to_map(const Lumels& lumels, std::span<const glm::vec3> values);
 
 /// Fills buried lumels with the light of their nearest open neighbours in the same chart, so that

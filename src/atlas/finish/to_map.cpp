@@ -13,9 +13,10 @@ namespace {
 
 constexpr float kMinAlpha = 1.0f / 255.0f;
 
-// Area-weighted mean of the open lumels on one side of a chart.
-struct SideMean {
-    double power = 0.0;
+// Area-weighted mean square of the open lumels on one side of a chart: the front of a cushion, lit
+// at its rim only, counts as brighter than faint, even light inside it.
+struct SideLight {
+    double squares = 0.0;
     double area = 0.0;
     bool present = false;
 
@@ -24,14 +25,14 @@ struct SideMean {
         present = true;
         if (lumel.flags & kLumelBuried)
             return;
-        power += luminance(value) * lumel.area;
+        squares += luminance(value) * luminance(value) * double(lumel.area);
         area += lumel.area;
     }
-    double mean() const { return area > 0.0 ? power / area : 0.0; }
+    double mean() const { return area > 0.0 ? squares / area : 0.0; }
 };
 
 struct ChartSideLight {
-    SideMean front, back;
+    SideLight front, back;
 
     bool shows_back(bool prefers_front) const
     {

@@ -21,7 +21,7 @@ namespace lumel {
 enum class Sides {
     automatic,  ///< both, with separate texels, if light may reach both
     both,       ///< both, always
-    brighter,   ///< the brighter side on average, per chart
+    brighter,   ///< the brighter side, per chart
     front,      ///< the front
 };
 
