@@ -17,8 +17,9 @@ namespace {
 
 /// Lumels per progress step, and minimum per task.
 constexpr std::size_t kTestedPerStep = 8192, kTestedPerTask = 64;
-constexpr std::uint32_t kFirstPoints = 8;  ///< over the whole lumel, to test whether it is open
-constexpr std::size_t kCornerPieces = 4;   ///< pieces whose corners are tested first
+constexpr std::uint32_t kFirstPoints = 8;   ///< over the whole lumel, to test whether it is open
+constexpr std::size_t kCornersOfPiece = 4;  ///< of a triangle one twice
+constexpr std::size_t kCornerPieces = 4;    ///< pieces whose corners are tested first
 constexpr float kFromEdges = 0.02f;  ///< inset of points from edges, relative to the piece or strip
 constexpr int kStrips = 6;           ///< strips of a partly buried lumel
 constexpr int kStripBisections = 4;  ///< for a strip's open end, to 1/32 of a sample distance
@@ -34,10 +35,10 @@ constexpr float kContact = 0.01f;
 /// Rays that hit backs nearby, relative to the number of points, from which on fronts are doubted.
 constexpr double kManyBacks = 2.0;
 /// Directions at most along which a point that is shut in sees fronts.
-constexpr int kFewFronts = 2;
-/// Walks in closed geometry: maximum length of their rays, relative to the lumel's size, and most
-/// reflections.
+constexpr int kFewFronts = int(kDirections) / 4;
+/// Maximum distance of backs nearby, relative to the lumel's size.
 constexpr float kFar = 16.0f;
+/// Of walks in closed geometry.
 constexpr std::uint32_t kMostReflections = 16;
 
 /// Bit k: direction k.
@@ -70,6 +71,22 @@ public:
             find_shut_in(points, hidden);
     }
 
+    /// Tests whether some of these points meet a back nearby, each along a direction of its own:
+    /// all of a lumel's points may be open by the first, to a far front.
+    void look_for_backs(std::span<const LumelPoint> points)
+    {
+        rays_.clear();
+        for (std::uint32_t k = 0; k < points.size(); ++k) {
+            rays_.push_back(ray_from(points[k], direction_about(points[k].normal, sample(k))));
+            rays_.back().far = nearby();
+        }
+        hits_.resize(rays_.size());
+        look_.rays.closest(rays_, hits_);
+        is_near_back_ = is_near_back_ || std::ranges::any_of(hits_, [&](const RayHit& hit) {
+                            return !std::isinf(hit.distance) && is_back(hit);
+                        });
+    }
+
     /// Directions by which points were first found open.
     Directions successful() const { return successful_; }
     /// True if many rays have hit backs nearby.
@@ -89,13 +106,13 @@ private:
             cast(points, direction);
             for (std::size_t r = 0; r < left_.size(); ++r) {
                 const RayHit& hit = hits_[r];
-                backs += is_near(hit) && is_back(hit) ? 1 : 0;
+                backs += hit.distance <= nearby() && is_back(hit) ? 1 : 0;
                 if (!is_open(points[left_[r]].normal, rays_[r], hit))
                     continue;
                 hidden[left_[r]] = false;
                 last_ = direction;
                 successful_ |= 1u << direction;
-                if (is_near(hit))
+                if (!std::isinf(hit.distance))
                     in_doubt_.push_back(left_[r]);
             }
             std::erase_if(left_, [&](std::uint32_t p) { return !hidden[p]; });
@@ -103,7 +120,8 @@ private:
         return backs;
     }
 
-    /// Hides points that are open by few fronts nearby, which are shut in themselves.
+    /// Hides points that are open by few fronts, which are shut in themselves: as the end of a
+    /// floor that a wall stands on.
     void find_shut_in(std::span<const LumelPoint> points, std::span<bool> hidden)
     {
         left_.swap(in_doubt_);
@@ -125,8 +143,7 @@ private:
     /// Casts rays from the points left_.
     void cast(std::span<const LumelPoint> points, std::uint32_t direction)
     {
-        glm::vec2 st = sobol_pair(direction, hash_two(std::uint32_t(lumel_), 1));
-        st.x *= 1.0f - kMinCosine * kMinCosine;  // the squared sine
+        const glm::vec2 st = sample(direction);
         rays_.clear();
         glm::vec3 normal(0.0f), along(0.0f);
         for (const std::uint32_t p : left_) {
@@ -134,11 +151,24 @@ private:
                 normal = points[p].normal;
                 along = direction_about(normal, st);
             }
-            rays_.push_back(ray_out(points[p].position + look_.world[lumel_].ray_offset * normal,
-                                    along, kBlendSeed));
+            rays_.push_back(ray_from(points[p], along));
         }
         hits_.resize(rays_.size());
         look_.rays.closest(rays_, hits_);
+    }
+
+    /// Of the hemisphere about a normal.
+    glm::vec2 sample(std::uint32_t direction) const
+    {
+        glm::vec2 st = sobol_pair(direction, hash_two(std::uint32_t(lumel_), 1));
+        st.x *= 1.0f - kMinCosine * kMinCosine;  // the squared sine
+        return st;
+    }
+
+    RaySpan ray_from(const LumelPoint& point, const glm::vec3& along) const
+    {
+        return ray_out(point.position + look_.world[lumel_].ray_offset * point.normal, along,
+                       kBlendSeed);
     }
 
     bool is_back(const RayHit& hit) const
@@ -146,16 +176,13 @@ private:
         return !hit.front && !is_double_sided(look_.scene, hit);
     }
 
-    bool is_near(const RayHit& hit) const
-    {
-        return hit.distance <= kFar * look_.world[lumel_].size;
-    }
+    float nearby() const { return kFar * look_.world[lumel_].size; }  ///< [m]
 
     /// True if a walk of diffuse reflections from a hit ends at the back of a surface.
     bool ends_at_back(std::uint32_t direction, RaySpan ray, RayHit hit) const
     {
         for (std::uint32_t n = 0; n < kMostReflections; ++n) {
-            if (!is_near(hit))
+            if (std::isinf(hit.distance))
                 return false;
             const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
             const glm::vec3 from =
@@ -186,7 +213,7 @@ private:
     std::vector<std::uint32_t> left_;      ///< points that are not yet decided
     std::vector<RaySpan> rays_;            ///< [left_]
     std::vector<RayHit> hits_;             ///< [left_]
-    std::vector<std::uint32_t> in_doubt_;  ///< points that are open by a front nearby
+    std::vector<std::uint32_t> in_doubt_;  ///< points that are open by a front
 };
 
 enum class Openness { open, partly, hidden };
@@ -201,7 +228,7 @@ struct FirstLook {
 /// the whole lumel.
 FirstLook first_look(const LumelsInScene& look, std::size_t i)
 {
-    constexpr std::size_t kMostPoints = kFirstPoints + 4 * kCornerPieces;
+    constexpr std::size_t kMostPoints = kFirstPoints + kCornersOfPiece * kCornerPieces;
     std::array<LumelPoint, kMostPoints> points;
     std::array<bool, kMostPoints> hidden;
     std::size_t count = 0;
@@ -216,6 +243,7 @@ FirstLook first_look(const LumelsInScene& look, std::size_t i)
             points[count++] = point_in(piece, uv.x, uv.y);
     const std::span tested = std::span(hidden).first(count);
     HiddenPoints are_hidden(look, i, kAllDirections, false);
+    are_hidden.look_for_backs(std::span(points).subspan(kFirstPoints, kCornersOfPiece));
     are_hidden(std::span(points).first(count), tested);
     const auto hides = std::size_t(std::ranges::count(tested, true));
     return {hides == 0       ? Openness::open

@@ -1,6 +1,7 @@
 // Which lumels lie under or inside other geometry.
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -106,6 +107,17 @@ TEST(Buried, TheDarkInsideOfASealedRoomyBoxIsNot)
     add_box(quads, {0.1f, 0.1f, 0.1f}, {1.9f, 1.9f, 1.9f}, closed, true);
     for (const bool is : buried(quads))
         EXPECT_FALSE(is);
+}
+
+/// Some of its rays meet the floor's front, which stands in the wall as well.
+TEST(Buried, ACeilingInsideATallWallIs)
+{
+    Quad ceiling = floor_8x8();
+    ceiling.corner.y = 17.0f;
+    std::swap(ceiling.edge_u, ceiling.edge_v);
+    std::vector<Quad> quads{ceiling, floor_8x8()};
+    add_box(quads, {2, -1, 2}, {6, 20, 6}, closed);
+    expect_buried_floor(buried(quads), 2, 6, 2, 6);
 }
 
 TEST(Buried, AWallInsideAWallIs)
