@@ -118,6 +118,19 @@ TEST(Sides, AreLitByOneLampAmongMany)
     EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), lit_outside);
 }
 
+TEST(Sides, AreLitByASmallEmissiveBulb)
+{
+    Scene scene = house_with(true, false, true);
+    support::add_quad(scene, {.corner = {2.0f, 1.5f, 2.0f},
+                              .edge_u = {0.02f, 0.0f, 0.0f},
+                              .edge_v = {0.0f, 0.0f, 0.02f},
+                              .emission = glm::vec3(1e5f),
+                              .double_sided = true});
+    const std::vector<char> roof_and_sunny_wall = {1, 0, 0, 1, 0, 0};
+    const SolveScene house(scene, AtlasOptions{.size = 96});
+    EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), roof_and_sunny_wall);
+}
+
 // One mesh with a layout of its own, whose primitives differ.
 TEST(Sides, OfASingleSidedPartHaveNoBack)
 {

@@ -1,6 +1,7 @@
 #include "atlas/prepare/lit_sides.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -22,6 +23,8 @@ constexpr std::uint32_t kMaxSteps = 24;  ///< steps per walk
 /// Walks from each lamp, which light the surfaces that they hit; fewer if there are many lamps.
 constexpr std::uint32_t kLampWalks = 256, kMinLampWalks = 16, kAllLampWalks = 1 << 16;
 constexpr std::uint32_t kLampSteps = 3;
+/// Separates random numbers of emissive surfaces from others; any value serves.
+constexpr std::uint32_t kEmitterSeed = 0x5bd1e995u;
 /// Inset of walks from the edges of their triangle, relative to it: close to an edge they could
 /// start beyond the adjacent wall.
 constexpr float kInset = 0.01f;
@@ -43,6 +46,38 @@ bool is_double_sided(const Scene& scene, const TriangleOf& at)
     return material_of(scene, at).double_sided;
 }
 
+/// A triangle in the world, seen from its front.
+struct WorldTriangle {
+    std::array<glm::vec3, 3> corner;  ///< [m]
+    bool double_sided;
+
+    glm::vec3 normal() const  ///< its length is twice the area
+    {
+        return glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+    }
+    /// Uniform by area for a uniform uv.
+    glm::vec3 point(glm::vec2 uv) const
+    {
+        if (uv.x + uv.y > 1.0f)
+            uv = 1.0f - uv;
+        return corner[0] + uv.x * (corner[1] - corner[0]) + uv.y * (corner[2] - corner[0]);
+    }
+};
+
+WorldTriangle world_triangle(const Scene& scene, const TriangleOf& at)
+{
+    const Primitive& primitive = primitive_of(scene, at);
+    const glm::mat4& transform = scene.instances[at.instance].transform;
+    WorldTriangle triangle{.corner = {}, .double_sided = is_double_sided(scene, at)};
+    for (std::uint32_t k = 0; k < 3; ++k)
+        triangle.corner[k] =
+            glm::vec3(transform *
+                      glm::vec4(primitive.positions[primitive.indices[3 * at.triangle + k]], 1.0f));
+    if (glm::determinant(glm::mat3(transform)) < 0.0f)
+        std::swap(triangle.corner[1], triangle.corner[2]);
+    return triangle;
+}
+
 /// Position of a walk.
 struct Place {
     glm::vec3 position;  ///< [m]
@@ -52,15 +87,14 @@ struct Place {
 /// The double-sided triangles of a chart.
 class ChartSides {
 public:
-    ChartSides(const Scene& scene, const std::vector<TriangleOf>& chart) : scene_(scene)
+    ChartSides(const Scene& scene, const std::vector<TriangleOf>& chart)
     {
         double sum = 0.0;
         for (const TriangleOf& at : chart) {
             if (!is_double_sided(scene, at))
                 continue;
-            const glm::vec3 a = corner(at, 0);
-            sum += 0.5 * double(glm::length(glm::cross(corner(at, 1) - a, corner(at, 2) - a)));
-            triangles_.push_back(at);
+            triangles_.push_back(world_triangle(scene, at));
+            sum += 0.5 * double(glm::length(triangles_.back().normal()));
             sums_.push_back(sum);
             glows_ |= material_of(scene, at).emitted != glm::vec3(0.0f);
         }
@@ -75,32 +109,18 @@ public:
     {
         const double at = (double(index) + 0.5) / double(count) * area();
         const auto found = std::lower_bound(sums_.begin(), sums_.end(), at);
-        const TriangleOf& triangle =
+        const WorldTriangle& triangle =
             triangles_[std::min(std::size_t(found - sums_.begin()), sums_.size() - 1)];
-        const glm::vec3 a = corner(triangle, 0), b = corner(triangle, 1), c = corner(triangle, 2);
-        glm::vec2 uv = sequence_point(index, back ? 1u : 0u);
-        if (uv.x + uv.y > 1.0f)
-            uv = 1.0f - uv;
-        const glm::vec3 point = a + uv.x * (b - a) + uv.y * (c - a);
-        const glm::mat3 linear(scene_.instances[triangle.instance].transform);
-        const bool turned = back != (glm::determinant(linear) < 0.0f);
-        const glm::vec3 normal = glm::normalize((turned ? -1.0f : 1.0f) * glm::cross(b - a, c - a));
+        const auto& [a, b, c] = triangle.corner;
+        const glm::vec3 point = triangle.point(sequence_point(index, back ? 1u : 0u));
+        const glm::vec3 normal = glm::normalize((back ? -1.0f : 1.0f) * triangle.normal());
         const float ray_offset =
             ray_offset_for(std::max(largest_coordinate(point), longest_edge(a, b, c)));
         return {glm::mix(point, (a + b + c) / 3.0f, kInset) + ray_offset * normal, normal};
     }
 
 private:
-    glm::vec3 corner(const TriangleOf& at, std::uint32_t k) const
-    {
-        const Primitive& primitive = primitive_of(scene_, at);
-        return glm::vec3(
-            scene_.instances[at.instance].transform *
-            glm::vec4(primitive.positions[primitive.indices[3 * at.triangle + k]], 1.0f));
-    }
-
-    const Scene& scene_;
-    std::vector<TriangleOf> triangles_;
+    std::vector<WorldTriangle> triangles_;
     std::vector<double> sums_;  ///< running sums over triangles [m²]
     bool glows_ = false;
 };
@@ -124,12 +144,58 @@ bool sees_lamp(const Scene& scene, const RayScene& rays, const Place& at, std::u
                      ray_offset_for(std::max(largest_coordinate(place), glm::length(away))), seed);
 }
 
+/// The emissive triangles of a scene. Walks rarely hit a small one, as a bulb in its shade.
+class EmissiveTriangles {
+public:
+    explicit EmissiveTriangles(const Scene& scene)
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+            const std::vector<Primitive>& primitives =
+                scene.meshes[std::size_t(scene.instances[i].mesh)].primitives;
+            for (std::uint32_t p = 0; p < primitives.size(); ++p)
+                for (std::uint32_t t = 0; t < primitives[p].indices.size() / 3; ++t) {
+                    const TriangleOf at{std::uint32_t(i), p, t};
+                    if (material_of(scene, at).emitted == glm::vec3(0.0f))
+                        break;
+                    triangles_.push_back(world_triangle(scene, at));
+                    sum += double(glm::length(triangles_.back().normal()));
+                    sums_.push_back(sum);
+                }
+        }
+    }
+
+    /// True if light of one of them, chosen by `seed` and area, reaches the position.
+    bool light(const RayScene& rays, const Place& at, std::uint32_t seed) const
+    {
+        if (triangles_.empty() || sums_.back() == 0.0)
+            return false;
+        const double chosen = double(unit_float(mixed_bits(seed ^ kEmitterSeed))) * sums_.back();
+        const auto found = std::upper_bound(sums_.begin(), sums_.end(), chosen);
+        const WorldTriangle& triangle =
+            triangles_[std::min(std::size_t(found - sums_.begin()), sums_.size() - 1)];
+        const glm::vec3 point =
+            triangle.point({unit_float(mixed_bits(seed + 1)), unit_float(mixed_bits(~(seed + 1)))});
+        const glm::vec3 away = at.position - point;
+        return glm::dot(at.normal, away) < 0.0f &&
+               (triangle.double_sided || glm::dot(triangle.normal(), away) > 0.0f) &&
+               rays.sees(at.position, point,
+                         ray_offset_for(std::max(largest_coordinate(point), glm::length(away))),
+                         seed);
+    }
+
+private:
+    std::vector<WorldTriangle> triangles_;
+    std::vector<double> sums_;  ///< running sums of their areas, doubled [m²]
+};
+
 /// Follows a walk to its end. Returns true if it finds light.
-bool finds_light(const Scene& scene, const RayScene& rays, Place at, std::uint32_t key, bool daylit)
+bool finds_light(const Scene& scene, const RayScene& rays, const EmissiveTriangles& emitters,
+                 Place at, std::uint32_t key, bool daylit)
 {
     for (std::uint32_t step = 0; step < kMaxSteps; ++step) {
         const std::uint32_t seed = mixed_bits(key + step);
-        if (sees_lamp(scene, rays, at, seed))
+        if (sees_lamp(scene, rays, at, seed) || emitters.light(rays, at, seed))
             return true;
         const glm::vec3 direction =
             direction_about(at.normal, {unit_float(seed), unit_float(mixed_bits(~seed))});
@@ -229,6 +295,7 @@ std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
     if (all == 0.0)
         return both;
     const std::vector<char> by_lamps = lit_by_lamps(scene, rays, charts);
+    const EmissiveTriangles emitters(scene);
     const auto is_lit = [&](std::size_t chart, bool back) {
         if (sides[chart].glows() || by_lamps[2 * chart + back])
             return true;
@@ -239,7 +306,8 @@ std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
         for (std::uint32_t walk = 0; walk < walks && wanted > 0; ++walk) {
             const std::uint32_t key =
                 mixed_bits(2 * std::uint32_t(chart) + back) + walk * kMaxSteps;
-            wanted -= finds_light(scene, rays, sides[chart].start(back, walk, walks), key, daylit);
+            wanted -= finds_light(scene, rays, emitters, sides[chart].start(back, walk, walks), key,
+                                  daylit);
         }
         return wanted == 0;
     };
