@@ -3,7 +3,8 @@
 
 namespace lumel {
 
-/// From now on the first Ctrl-C (or SIGTERM) only sets a flag; a second one ends the program.
+/// From now on the first Ctrl-C (or SIGTERM) only sets a flag; one that comes later than half a
+/// second after it ends the program.
 void watch_interrupts();
 
 /// True once the user has pressed Ctrl-C.

@@ -249,6 +249,17 @@ TEST(Resume, ABakeThatIsStoppedLeavesTheCheckpointThatItDidNotGoOnFrom)
     stop({.error = "0.001", .checkpoint = "0", .more = {"--resume"}});
 }
 
+/// As `timeout` stops a program: by a signal to it, and one to its process group.
+TEST(Resume, ABakeThatIsStoppedTwiceAtOnceKeepsItsLight)
+{
+    const Workplace place;
+    const Outcome stopped =
+        run_lumel(resumable(place.path("out"), {.error = "0.001"}),
+                  {.interrupt_at = "rays per lumel", .signal = SIGTERM, .signals = 2});
+    EXPECT_EQ(stopped.code, 128 + SIGTERM) << stopped.err;
+    EXPECT_TRUE(fs::exists(place.path("out/lightmap.exr")));
+}
+
 TEST(Resume, ABakeThatIsStoppedLeavesNoCheckpointWhereNoneWas)
 {
     const Workplace place;

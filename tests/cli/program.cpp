@@ -26,6 +26,8 @@
 namespace lumel::test {
 namespace {
 
+constexpr std::chrono::milliseconds kBetweenSignals(20);
+
 struct Channel {
     int ours = -1;
     int theirs = -1;
@@ -148,7 +150,11 @@ Outcome run_program(const std::string& program, const std::vector<std::string>& 
     collect(out.ours, err.ours, outcome, [&] {
         if (!interrupts || sent || outcome.err.find(options.interrupt_at) == std::string::npos)
             return;
-        kill(child, options.signal);
+        for (int n = 0; n < options.signals; ++n) {
+            if (n > 0)
+                std::this_thread::sleep_for(kBetweenSignals);
+            kill(child, options.signal);
+        }
         sent = true;
     });
     // Not after the child is waited for, when its number may be another's.

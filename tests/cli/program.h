@@ -16,6 +16,7 @@ struct RunOptions {
     bool terminal = false;       ///< stderr is a terminal of 100 columns
     std::string interrupt_at{};  ///< send `signal` once stderr, a terminal, shows this text
     int signal = SIGINT;
+    int signals = 1;                         ///< number of them, 20 ms apart
     double kill_after = 0.0;                 ///< send SIGKILL after so long [s]; 0: never
     std::vector<std::string> environment{};  ///< NAME=VALUE, beside that of the test
     std::function<void(pid_t)> on_start{};   ///< called with the number of its process
