@@ -61,9 +61,9 @@ std::string too_bright(const Scene& scene)
     std::size_t count = 0;
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         const Material& material = scene.materials[m];
-        if (!used[m] || material.transmission >= 1.0f ||
-            brightest(glm::vec3(material.base_color)) <= scene.max_albedo ||
-            brightest(mean_albedo(scene, material)) <= scene.max_albedo)
+        const float reflects = 1.0f - material.transmission;
+        if (!used[m] || reflects * brightest(glm::vec3(material.base_color)) <= scene.max_albedo ||
+            reflects * brightest(mean_albedo(scene, material)) <= scene.max_albedo)
             continue;
         if (++count <= kMaxNames)
             names += (names.empty() ? "" : ", ") + quoted(material.name);
