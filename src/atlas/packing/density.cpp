@@ -138,15 +138,24 @@ void lower_far_out(const Scene& scene, std::vector<std::vector<Density>>& densit
                 densities[i][p].relative = std::sqrt(areas[i][p].x / areas[i][p].y);
 }
 
+bool matches(const DensityRule& rule, const Scene& scene, const Instance& instance,
+             const Primitive& primitive)
+{
+    const std::string& mesh = scene.meshes[std::size_t(instance.mesh)].name;
+    const std::string& material = scene.materials[std::size_t(primitive.material)].name;
+    return std::ranges::any_of(std::array{&instance.name, &mesh, &material},
+                               [&](const std::string* name) {
+                                   return fnmatch(rule.pattern.c_str(), name->c_str(), 0) == 0;
+                               });
+}
+
 double set_density(const Scene& scene, const Instance& instance, const Primitive& primitive,
                    const std::vector<DensityRule>& rules)
 {
     const Material& material = scene.materials[std::size_t(primitive.material)];
-    const std::string& mesh = scene.meshes[std::size_t(instance.mesh)].name;
     for (auto rule = rules.rbegin(); rule != rules.rend(); ++rule)
-        for (const std::string* name : {&instance.name, &mesh, &material.name})
-            if (fnmatch(rule->pattern.c_str(), name->c_str(), 0) == 0)
-                return double(rule->texels_per_metre);
+        if (matches(*rule, scene, instance, primitive))
+            return double(rule->texels_per_metre);
     return double(instance.texels_per_metre > 0.0f ? instance.texels_per_metre
                                                    : material.texels_per_metre);
 }
@@ -166,6 +175,22 @@ std::vector<std::vector<Density>> densities_of(const Scene& scene, const AtlasOp
                 set_density(scene, instance, mesh.primitives[p], options.densities);
     }
     return densities;
+}
+
+std::vector<std::string> unmatched(const Scene& scene, const std::vector<DensityRule>& rules)
+{
+    const auto is_used = [&](const DensityRule& rule) {
+        return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+            return std::ranges::any_of(
+                scene.meshes[std::size_t(instance.mesh)].primitives,
+                [&](const Primitive& one) { return matches(rule, scene, instance, one); });
+        });
+    };
+    std::vector<std::string> patterns;
+    for (const DensityRule& rule : rules)
+        if (!is_used(rule))
+            patterns.push_back(rule.pattern);
+    return patterns;
 }
 
 }  // namespace lumel

@@ -1,6 +1,7 @@
 #pragma once
 // Texel density of surfaces: set by the file or an option, else by the distance from the content.
 
+#include <string>
 #include <vector>
 
 #include "atlas/packing/atlas.h"
@@ -28,5 +29,8 @@ struct Density {
 /// distant texel subtends the same angle as one at L. A surface gets the RMS of this over its area:
 /// as many texels as its points together, and exactly 1 within L.
 std::vector<std::vector<Density>> densities_of(const Scene& scene, const AtlasOptions& options);
+
+/// Patterns of rules that match no name in the scene.
+std::vector<std::string> unmatched(const Scene& scene, const std::vector<DensityRule>& rules);
 
 }  // namespace lumel

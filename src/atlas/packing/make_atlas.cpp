@@ -499,6 +499,9 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested,
     if (std::size_t(packing.rectangles.size()) > plans.items.size())
         atlas.back_shift = back_shifts(plans, *sheets, both, packing, back, atlas);
     atlas.shows_front = options.sides == Sides::front;
+    for (const std::string& pattern : unmatched(scene, options.densities))
+        atlas.notes.push_back(fmt::format(
+            "no object, mesh or material is named '{}': its density is of no use", pattern));
     return atlas;
 }
 
