@@ -1,5 +1,7 @@
 // The options of lumel render.
 
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include "base/core/error.h"
@@ -13,6 +15,11 @@ namespace {
 constexpr int kMaxPlaces = 256;
 constexpr int kMaxRays = 4096;
 constexpr const char* kSeedOption = "seed";
+/// Side of the map that glossy light is solved on, if none is given [texels]: the more lumels, the
+/// more shooters a clean image takes.
+constexpr int kGlossySide = 128;
+/// Options that tell the number of texels.
+constexpr std::array kSizes = {"--size", "--max-size", "--texels-per-metre", "--density"};
 constexpr double kMaxKept = 1000.0;  // frames
 
 void add_film_options(Command& command, FilmOptions& film)
@@ -121,6 +128,8 @@ Command render_command()
             given->options.bake.atlas.sides = Sides::automatic;
         } else {
             solver.method = method->options();
+            if (std::ranges::none_of(kSizes, [&](const char* size) { return parsed.given(size); }))
+                given->options.bake.atlas.size = kGlossySide;
         }
         set_default_target(parsed, solver);
         if (parsed.given("--lobe-rays") && is_papers(solver.method))

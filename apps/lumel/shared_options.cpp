@@ -88,7 +88,7 @@ void add_atlas_options(Command& command, AtlasOptions& atlas)
         {{"--texels-per-metre", "N", "Texel density of the lightmap, the main control of its size",
           &atlas.texels_per_metre, "fills the lightmap", positive()},
          {"--size", "N", "Side of the square lightmap in texels, instead of a density", &atlas.size,
-          "as needed, from 512", whole(1, kLargestAtlas)},
+          "as needed, from 512; render: 128", whole(1, kLargestAtlas)},
          {.names = "--density",
           .type = "NAME=N",
           .help = "Texels per metre of the nodes, meshes or materials of this name; * and ? match "
