@@ -32,17 +32,19 @@ int run(const BakeArguments& arguments, Ranks* ranks)
             error +=
                 fmt::format(", visible noise {:.2f} %", 100.0 * summary.visible_noise.worst_chart);
         const SolverOptions& solver = arguments.options.solver;
+        // A matrix shoots for lamps without a form factor alone.
+        const std::string rays = summary.shots > 0 ? fmt::format("{} {} in ", summary.shots,
+                                                                 method_of(solver.method).shots)
+                                                   : "";
         if (solver.has_default_limits() &&
             (summary.eye_error > kGood.eye_error ||
              summary.visible_noise.worst_chart > kGood.visible_noise))
             error += "; --quality good goes on";
         return Conclusion{summary.report,
-                          fmt::format("{0}: {1} {2} in {3:.1f} s{4}\n"
+                          fmt::format("{0}: {1}{2:.1f} s{3}\n"
                                       "{0}/scene-baked.glb is for any glTF viewer; "
                                       "{0}/scene.glb, with the lightmap, for three.js and engines",
-                                      arguments.folder, summary.shots,
-                                      method_of(arguments.options.solver.method).shots,
-                                      summary.seconds, error),
+                                      arguments.folder, rays, summary.seconds, error),
                           summary.interrupted};
     };
     return do_long_work(arguments.talk, batch_of(arguments.options.solver.method), work);

@@ -201,9 +201,10 @@ WrittenLamps write_lamps(const OutputFolder& folder, const BakeOptions& options,
         list["sum_error"] = apart;
     write_json(folder.path(kLampsFile), list);
     written.files.emplace_back(kLampsFile);
-    stages.tell(fmt::format("{} lamps, whose maps add up to the lightmap within {}",
-                            written.maps.size(),
-                            options.half ? "half precision" : fmt::format("{:.1e} of it", apart)));
+    stages.tell(
+        fmt::format("{} {} up to the lightmap within {}", written.maps.size(),
+                    written.maps.size() == 1 ? "lamp, whose map adds" : "lamps, whose maps add",
+                    options.half ? "half precision" : fmt::format("{:.1e} of it", apart)));
     return written;
 }
 
