@@ -3,32 +3,92 @@
 #include "../support/closed_forms.h"
 #include "../support/source_folder.h"
 #include "../support/thread_ranks.h"
+#include "atlas/near/buried.h"
 #include "links/trace/links.h"
 #include "solved.h"
 
 namespace lumel {
 namespace {
 
+// Low enough for a second round, which is guided.
+const SolverOptions kLimits{.target_error = 0.02};
+
+class RanksOfLinks : public testing::Test {
+protected:
+    const SolveScene world{read_gltf(support::scene_path("two-rooms")), AtlasOptions{.size = 48}};
+};
+
+LinkRadiosity solver_of(const SolveScene& world, Ranks* ranks)
+{
+    return {nullptr, world, LinksOptions{}, kLimits.limits(), Parts::all, ranks};
+}
+
 std::vector<glm::vec3> solved(const SolveScene& world, Ranks* ranks)
 {
-    // Low enough for a second round, which is guided.
-    const SolverOptions limits{.target_error = 0.02};
-    LinkRadiosity solver(nullptr, world, LinksOptions{}, limits.limits(), Parts::all, ranks);
-    solve(solver, limits);
+    LinkRadiosity solver = solver_of(world, ranks);
+    solve(solver, kLimits);
     return solver.irradiance();
 }
 
-TEST(RanksOfLinks, FindTheSameLightAsOneProcess)
+TEST_F(RanksOfLinks, FindTheSameLightAsOneProcess)
 {
-    for (const char* scene : {"cornell-box", "two-rooms"}) {
-        const SolveScene world(read_gltf(support::scene_path(scene)), AtlasOptions{.size = 48});
-        const std::vector<glm::vec3> alone = solved(world, nullptr);
+    const SolveScene cornell(read_gltf(support::scene_path("cornell-box")),
+                             AtlasOptions{.size = 48});
+    for (const SolveScene* scene : {&world, &cornell}) {
+        const std::vector<glm::vec3> alone = solved(*scene, nullptr);
         for (const std::size_t count : {1u, 2u, 3u})
             support::run_ranks(count, [&](Ranks& ranks) {
-                EXPECT_EQ(solved(world, &ranks), alone) << scene << ", " << count << " ranks";
+                EXPECT_EQ(solved(*scene, &ranks), alone)
+                    << scene->scene.path << ", " << count << " ranks";
                 ranks.finish(0);
             });
     }
+}
+
+TEST_F(RanksOfLinks, FindTheSameVisibleNoise)
+{
+    const SolverOptions limits{.target_quality = {.visible_noise = 0.05}};
+    const SolveScene box(read_gltf(support::scene_path("cornell-box")), AtlasOptions{.size = 96});
+    const auto noise = [&](Ranks* ranks) {
+        LinkRadiosity solver(nullptr, box, LinksOptions{}, limits.limits(), Parts::all, ranks);
+        solve(solver, limits);
+        return solver.state().visible_noise.worst_chart;
+    };
+    const double alone = noise(nullptr);
+    EXPECT_GT(alone, 0.0);
+    support::run_ranks(2, [&](Ranks& ranks) {
+        EXPECT_EQ(noise(&ranks), alone);
+        ranks.finish(0);
+    });
+}
+
+TEST(RanksOfLumels, BuryTheSame)
+{
+    const auto world = [](Ranks* ranks) {
+        const auto lay_out = [](const Scene& scene, const RayScene&, const ProgressCallback&) {
+            return make_atlas(scene, {.size = 96});
+        };
+        return SolveScene(read_gltf(support::scene_path("room")), lay_out,
+                          [&](const Scene& scene, const RayScene& rays, Lumels& lumels,
+                              const ProgressCallback& progress) {
+                              return mark_buried(scene, rays, lumels, {}, progress, ranks);
+                          });
+    };
+    const auto shares = [](const Lumels& lumels) {
+        std::vector<float> all;
+        for (const Piece& piece : lumels.pieces)
+            all.push_back(piece.share);
+        return all;
+    };
+    const SolveScene alone = world(nullptr);
+    EXPECT_TRUE(
+        std::ranges::any_of(alone.open, [](float one) { return one > 0.0f && one < 1.0f; }));
+    support::run_ranks(3, [&](Ranks& ranks) {
+        const SolveScene shared = world(&ranks);
+        EXPECT_EQ(shared.open, alone.open);
+        EXPECT_EQ(shares(shared.lumels), shares(alone.lumels));
+        ranks.finish(0);
+    });
 }
 
 }  // namespace

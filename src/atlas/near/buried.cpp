@@ -9,14 +9,14 @@
 #include "atlas/near/hemisphere.h"
 #include "atlas/near/sequence.h"
 #include "atlas/near/world_lumels.h"
-#include "base/core/parallel.h"
+#include "base/ranks/rank_blocks.h"
 
 namespace lumel {
 
 namespace {
 
-/// Lumels per progress step, and minimum per task.
-constexpr std::size_t kTestedPerStep = 8192, kTestedPerTask = 64;
+/// Lumels per block, and blocks per progress step and rank.
+constexpr std::size_t kBlock = 64, kBlocksPerStep = 128;
 constexpr std::uint32_t kFirstPoints = 8;   ///< over the whole lumel, to test whether it is open
 constexpr std::size_t kCornersOfPiece = 4;  ///< of a triangle one twice
 constexpr std::size_t kCornerPieces = 4;    ///< pieces whose corners are tested first
@@ -453,9 +453,15 @@ float local_area(const Piece& piece)
 
 /// The open pieces of a partly buried lumel, with their shares, and their share of the area.
 struct OpenPart {
-    std::size_t lumel;
+    std::size_t lumel = 0;
     std::vector<Piece> pieces;
-    float share;
+    float share = 0.0f;
+
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(lumel, pieces, share);
+    }
 };
 
 /// first: of its points; directions that opened none of them rarely open others.
@@ -516,33 +522,40 @@ float apply(Lumels& lumels, const OpenPart& part)
 }  // namespace
 
 std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels,
-                               const std::vector<char>& chosen, const ProgressCallback& progress)
+                               const std::vector<char>& chosen, const ProgressCallback& progress,
+                               Ranks* ranks)
 {
-    std::vector<OpenPart> parts(lumels.lumels.size());
+    const std::size_t count = lumels.lumels.size(), blocks = (count + kBlock - 1) / kBlock;
+    std::vector<std::vector<OpenPart>> reduced(blocks);
     {
         const WorldLumels world(scene, rays, lumels);
         const LumelsInScene look{scene, rays, world, lumels};
-        const auto look_at = [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                parts[i] = {i, {}, 1.0f};
+        const auto look_at = [&](std::size_t b) {
+            for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, count); ++i) {
                 if (!chosen.empty() && !chosen[i])
                     continue;
                 const FirstLook first = first_look(look, i);
+                OpenPart part{i, {}, 0.0f};
                 if (first.openness == Openness::partly)
-                    parts[i] = find_open_part(look, i, first);
-                else if (first.openness == Openness::hidden)
-                    parts[i].share = 0.0f;
+                    part = find_open_part(look, i, first);
+                if (first.openness != Openness::open && part.share < 1.0f)
+                    reduced[b].push_back(std::move(part));
             }
         };
-        parallel_steps(world.size(), kTestedPerStep, kTestedPerTask, look_at,
-                       [&](std::size_t done) {
-                           notify(progress, double(done) / double(world.size()));
-                           return true;
-                       });
+        for (std::size_t begin = 0, end; begin < blocks; begin = end) {
+            end = std::min(begin + count_of(ranks) * kBlocksPerStep, blocks);
+            parallel_for_own(ranks, begin, end, 1, [&](std::size_t first, std::size_t last) {
+                for (std::size_t b = first; b < last; ++b)
+                    look_at(b);
+            });
+            notify(progress, double(end) / double(blocks));
+        }
     }
-    std::vector<float> shares;
-    for (const OpenPart& part : parts)
-        shares.push_back(part.share < 1.0f ? apply(lumels, part) : 1.0f);
+    share_blocks(ranks, 0, blocks, [&](auto& archive, std::size_t b) { archive(reduced[b]); });
+    std::vector<float> shares(count, 1.0f);
+    for (const std::vector<OpenPart>& parts : reduced)
+        for (const OpenPart& part : parts)
+            shares[part.lumel] = apply(lumels, part);
     return shares;
 }
 

@@ -2,6 +2,7 @@
 // Lumels under or inside other geometry.
 
 #include "atlas/packing/atlas.h"
+#include "base/ranks/ranks.h"
 #include "rays/cast/ray_scene.h"
 #include "scene/values/scene.h"
 
@@ -22,9 +23,9 @@ namespace lumel {
 /// skirting board without a back of its own are fronts, but are shut in with it.
 ///
 /// Returns the open share of each lumel's area [N], 0 if buried. chosen [N]: changes only these
-/// lumels and returns 1 for the others; empty: all.
+/// lumels and returns 1 for the others; empty: all. ranks: that share the work; null: none.
 std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels,
                                const std::vector<char>& chosen = {},
-                               const ProgressCallback& progress = {});
+                               const ProgressCallback& progress = {}, Ranks* ranks = nullptr);
 
 }  // namespace lumel

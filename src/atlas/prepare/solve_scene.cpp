@@ -97,8 +97,9 @@ SolveScene::SolveScene(Scene given, const LayOut& lay_out, const Bury& bury,
         throw Error(ErrorKind::input, scene.path,
                     "has no surface that can receive light: nothing is drawn, or all of it is "
                     "cut out");
-    open = bury ? bury(scene, rays, lumels)
-                : mark_buried(scene, rays, lumels, {}, part_of(progress, kLifted, 1.0));
+    const ProgressCallback burying = part_of(progress, kLifted, 1.0);
+    open =
+        bury ? bury(scene, rays, lumels, burying) : mark_buried(scene, rays, lumels, {}, burying);
 }
 
 SolveScene::SolveScene(Scene given, Atlas laid_out, Lumels made, std::vector<std::uint32_t> moving)

@@ -1,5 +1,6 @@
 // The module liblumel-mpi.so: the transport of ranks by MPI.
 
+#include <algorithm>
 #include <chrono>
 #include <string_view>
 #include <thread>
@@ -15,8 +16,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// MPI waits by polling, which takes a core that other ranks could use: after kBusy, waits sleep.
-constexpr std::chrono::microseconds kBusy{500}, kNap{50};
+/// MPI waits by polling, which takes a core that other ranks could use: after kBusy, waits sleep,
+/// each time for 1 / kNaps of the wait so far.
+constexpr std::chrono::microseconds kBusy{500}, kShortest{50}, kLongest{2000};
+constexpr int kNaps = 16;
 
 int count_of(MPI_Comm group)
 {
@@ -81,7 +84,8 @@ private:
             if (waited < kBusy)
                 std::this_thread::yield();
             else
-                std::this_thread::sleep_for(kNap);
+                std::this_thread::sleep_for(
+                    std::clamp<Clock::duration>(waited / kNaps, kShortest, kLongest));
         }
     }
 

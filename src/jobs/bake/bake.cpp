@@ -56,14 +56,14 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
 
     const MemoryLimits limits = memory_limits(options, &device);
     check_memory(scene, options, limits);
-    const Setting setting(std::move(scene), &device, options, stages);
+    const Setting setting(std::move(scene), &device, options, stages, ranks);
     if (options.probe_spacing > 0.0)
         check_probe_spacing(options.probe_spacing, setting.prepared);
     if (wanted)
         wanted->check_memory(setting.prepared, options, limits.host);
     limit_links(options, setting.prepared, limits);
     if (ranks)
-        agree_on_bake(*ranks, setting.prepared, options);
+        agree_on_limits(*ranks, options);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =
         keeps_sources_apart(options)

@@ -53,9 +53,8 @@ public:
                   return make_atlas(placed, options, progress,
                                     shows_both(options.sides, rays, options.daylit));
               },
-              [&](const Scene& placed, const RayScene& rays, Lumels& lumels) {
-                  return mark_some(placed, rays, lumels);
-              })
+              [&](const Scene& placed, const RayScene& rays, Lumels& lumels,
+                  const ProgressCallback&) { return mark_some(placed, rays, lumels); })
     {
     }
 

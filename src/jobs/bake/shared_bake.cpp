@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "base/core/error.h"
-#include "base/core/fingerprint.h"
 #include "base/core/usage.h"
 #include "methods/methods.h"
 
@@ -76,18 +75,8 @@ void check_folder(Ranks& ranks, const std::string& folder,
                         "; the output folder must be on a file system that all machines share");
 }
 
-void agree_on_bake(Ranks& ranks, const SolveScene& prepared, BakeOptions& options)
+void agree_on_limits(Ranks& ranks, BakeOptions& options)
 {
-    Fingerprint hash;
-    const std::string& scene = prepared.scene.hash;
-    hash.add_bytes(scene.data(), scene.size());
-    ranks.agree(hash.value(), "has read another scene than rank 0");
-    const std::vector<Lumel>& lumels = prepared.lumels.lumels;
-    hash.add_bytes(lumels.data(), lumels.size() * sizeof(Lumel));
-    const std::vector<Piece>& pieces = prepared.lumels.pieces;
-    hash.add_bytes(pieces.data(), pieces.size() * sizeof(Piece));
-    ranks.agree(hash.value(),
-                "has other lumels than rank 0; all machines need processors of the same kind");
     // 0 is no limit.
     for (std::uint64_t* const limit : {&options.solver.max_bytes, &options.solver.max_device_bytes})
         *limit = std::ranges::min(ranks.all(*limit - 1)) + 1;

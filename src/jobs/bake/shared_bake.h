@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "atlas/prepare/solve_scene.h"
 #include "base/ranks/ranks.h"
 #include "jobs/solve/bake_options.h"
 #include "jobs/solve/stages.h"
@@ -19,8 +18,7 @@ void check_ranks(Ranks& ranks, const BakeOptions& options, Stages& stages);
 void check_folder(Ranks& ranks, const std::string& folder,
                   const std::optional<OutputFolder>& output);
 
-/// Throws Error{input} unless all ranks have the same lumels. Makes limits of memory common, and
-/// leaves checkpoints to the first rank.
-void agree_on_bake(Ranks& ranks, const SolveScene& prepared, BakeOptions& options);
+/// Makes limits of memory common, and leaves checkpoints to the first rank.
+void agree_on_limits(Ranks& ranks, BakeOptions& options);
 
 }  // namespace lumel

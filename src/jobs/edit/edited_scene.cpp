@@ -137,7 +137,7 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
                          const BakeRecord& baked, const SolveScene::LayOut& atlas_before,
                          bool as_a_bake)
     : before(std::move(scene_before), atlas_before,
-             [&](const Scene&, const RayScene&, Lumels& lumels) {
+             [&](const Scene&, const RayScene&, Lumels& lumels, const ProgressCallback&) {
                  return bury_as_before(solution, lumels);
              }),
       matches(match_instances(before.scene, scene_now)),
@@ -147,7 +147,7 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
           [&](const Scene& scene, const RayScene&, const ProgressCallback&) {
               return kept_atlas(before.scene, before.atlas, scene, matches, baked.atlas.gutter);
           },
-          [&](const Scene& scene, const RayScene& rays, Lumels& lumels) {
+          [&](const Scene& scene, const RayScene& rays, Lumels& lumels, const ProgressCallback&) {
               return as_a_bake ? mark_buried(scene, rays, lumels)
                                : bury_anew(scene, rays, solution, lumels);
           }),

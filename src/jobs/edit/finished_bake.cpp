@@ -40,7 +40,7 @@ FinishedBake::FinishedBake(Files files)
               return written_atlas(scene, record.pages, float(record.texels_per_metre),
                                    solution.charts);
           },
-          [&](const Scene&, const RayScene&, Lumels& lumels) {
+          [&](const Scene&, const RayScene&, Lumels& lumels, const ProgressCallback&) {
               return bury_as_before(solution, lumels);
           })
 {

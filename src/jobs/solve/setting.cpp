@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "atlas/near/buried.h"
 #include "atlas/prepare/lit_sides.h"
 #include "base/core/error.h"
+#include "base/core/fingerprint.h"
 #include "base/core/log.h"
 #include "base/ranks/ranks.h"
 #include "jobs/solve/checkpoint.h"
@@ -53,6 +55,30 @@ Scene in_stage(Scene scene, Stages& stages)
 {
     stages.begin("charts");
     return scene;
+}
+
+/// Throws Error{input} unless all ranks have the same lumels.
+void agree_on_lumels(Ranks& ranks, const Scene& scene, const Lumels& lumels)
+{
+    Fingerprint hash;
+    hash.add_bytes(scene.hash.data(), scene.hash.size());
+    ranks.agree(hash.value(), "has read another scene than rank 0");
+    hash.add_bytes(lumels.lumels.data(), lumels.lumels.size() * sizeof(Lumel));
+    hash.add_bytes(lumels.pieces.data(), lumels.pieces.size() * sizeof(Piece));
+    ranks.agree(hash.value(),
+                "has other lumels than rank 0; all machines need processors of the same kind");
+}
+
+/// Buries lumels by all ranks; empty for a process of its own.
+SolveScene::Bury bury_by(Ranks* ranks)
+{
+    if (!ranks)
+        return {};
+    return [ranks](const Scene& scene, const RayScene& rays, Lumels& lumels,
+                   const ProgressCallback& progress) {
+        agree_on_lumels(*ranks, scene, lumels);
+        return mark_buried(scene, rays, lumels, {}, progress, ranks);
+    };
 }
 
 NearField near_field_of(const SolveScene& prepared, const gpu::Device* device,
@@ -139,20 +165,21 @@ std::optional<LobeParticles> particles_for(const SolveScene& prepared, const Sol
     return particles;
 }
 
-Setting::Setting(Scene scene, const gpu::Device* device, const BakeOptions& options, Stages& stages)
+Setting::Setting(Scene scene, const gpu::Device* device, const BakeOptions& options, Stages& stages,
+                 Ranks* ranks)
     : Setting(
           std::move(scene),
           [&](const Scene& placed, const RayScene& rays, const ProgressCallback& progress) {
               return make_atlas(placed, options.atlas, progress,
                                 shows_both(options.atlas.sides, rays, options.atlas.daylit));
           },
-          device, options, stages)
+          device, options, stages, ranks)
 {
 }
 
 Setting::Setting(Scene scene, const SolveScene::LayOut& lay_out, const gpu::Device* device,
-                 const BakeOptions& options, Stages& stages)
-    : prepared(in_stage(std::move(scene), stages), lay_out, {}, stages.callback()),
+                 const BakeOptions& options, Stages& stages, Ranks* ranks)
+    : prepared(in_stage(std::move(scene), stages), lay_out, bury_by(ranks), stages.callback()),
       near(near_field_of(prepared, device, options, stages)),
       world(world_on(device, prepared, options, stages)),
       particles(particles_for(prepared, options.solver))

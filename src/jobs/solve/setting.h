@@ -35,11 +35,13 @@ bool needs_world(const BakeOptions& options);
 
 /// A scene on a device with all inputs of a solver. Must not move.
 struct Setting {
-    /// device: null for methods on the CPU, if there is none. Throws Error.
-    Setting(Scene scene, const gpu::Device* device, const BakeOptions& options, Stages& stages);
+    /// device: null for methods on the CPU, if there is none. ranks: that share the work, or null.
+    /// Throws Error.
+    Setting(Scene scene, const gpu::Device* device, const BakeOptions& options, Stages& stages,
+            Ranks* ranks = nullptr);
     /// Uses the atlas that `lay_out` makes of the scene.
     Setting(Scene scene, const SolveScene::LayOut& lay_out, const gpu::Device* device,
-            const BakeOptions& options, Stages& stages);
+            const BakeOptions& options, Stages& stages, Ranks* ranks = nullptr);
     Setting(const Setting&) = delete;
     Setting& operator=(const Setting&) = delete;
 

@@ -139,6 +139,19 @@ bool ChartFilter::may_step(std::size_t i, std::size_t j, float nearest) const
                                  0.0f, std::uint32_t(i));
 }
 
+/// Calls visit(lumel, x, y) for the lumels of a chart that take part in the filter.
+template <class Visit>
+void ChartFilter::visit_lumels(const ChartPlace& place, const Visit& visit) const
+{
+    for (int y = place.low.y; y <= place.high.y; ++y)
+        for (int x = place.low.x; x <= place.high.x; ++x) {
+            const std::uint32_t i =
+                lit_lumel_at(work_.scene.lumels, by_side_, x, y, place.is_back ? 1 : 0);
+            if (i != kNoLumel && work_.lumels()[i].chart == place.chart && !parts_.is_cut(i))
+                visit(i, x - place.low.x, y - place.low.y);
+        }
+}
+
 FilterChart ChartFilter::chart_at(const ChartPlace& place) const
 {
     const glm::ivec2 size = place.high - place.low + 1;
@@ -148,18 +161,13 @@ FilterChart ChartFilter::chart_at(const ChartPlace& place) const
     chart.steps.assign(texels, 0);
     chart.normal.assign(texels, glm::vec3(0.0f));
     chart.nearness.assign(texels, 0.0f);
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            const std::uint32_t i = lit_lumel_at(work_.scene.lumels, by_side_, place.low.x + x,
-                                                 place.low.y + y, place.is_back ? 1 : 0);
-            if (i == kNoLumel || work_.lumels()[i].chart != place.chart || parts_.is_cut(i))
-                continue;
-            const std::size_t t = chart.at(x, y);
-            chart.lumel[t] = i;
-            chart.steps[t] = steps_[i];
-            chart.normal[t] = work_.world[i].normal;
-            chart.nearness[t] = nearness_[i];
-        }
+    visit_lumels(place, [&](std::uint32_t i, int x, int y) {
+        const std::size_t t = chart.at(x, y);
+        chart.lumel[t] = i;
+        chart.steps[t] = steps_[i];
+        chart.normal[t] = work_.world[i].normal;
+        chart.nearness[t] = nearness_[i];
+    });
     return chart;
 }
 
@@ -167,9 +175,9 @@ FilterChart ChartFilter::chart_at(const ChartPlace& place) const
 void ChartFilter::share(Mean& mean) const
 {
     share_blocks(work_.ranks, 0, places_.size(), [&](auto& archive, std::size_t n) {
-        for (const std::uint32_t i : chart_at(places_[n]).lumel)
-            if (i != kNoLumel)
-                archive(mean.light[i], mean.noise[i], mean.wrong[i], mean.apart[i], mean.bend[i]);
+        visit_lumels(places_[n], [&](std::uint32_t i, int, int) {
+            archive(mean.light[i], mean.noise[i], mean.wrong[i], mean.apart[i], mean.bend[i]);
+        });
     });
 }
 

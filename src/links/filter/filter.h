@@ -51,6 +51,8 @@ public:
 private:
     std::uint8_t find_steps(std::size_t lumel, const std::vector<float>& nearest) const;
     bool may_step(std::size_t i, std::size_t j, float nearest) const;
+    template <class Visit>
+    void visit_lumels(const ChartPlace& place, const Visit& visit) const;
     FilterChart chart_at(const ChartPlace& place) const;
     std::vector<std::uint32_t> find_kinds() const;
     void share(Mean& mean) const;

@@ -5,6 +5,7 @@
 
 #include "atlas/lumels/sides.h"
 #include "base/core/parallel.h"
+#include "base/ranks/rank_blocks.h"
 #include "links/filter/chart_places.h"
 
 namespace lumel {
@@ -325,15 +326,17 @@ VisibleNoise visible_noise(const std::vector<ChartNoise>& charts)
 }
 
 std::vector<ChartNoise> noise_of_charts(const SolveScene& scene, const std::vector<float>& light,
-                                        const std::vector<const Mean*>& of)
+                                        const std::vector<const Mean*>& of, Ranks* ranks)
 {
     const std::vector<std::uint32_t> by_side = lumels_by_side(scene.lumels);
     const std::vector<ChartPlace> places = chart_places(scene.lumels);
     std::vector<ChartNoise> charts(places.size());
-    parallel_for(places.size(), 1, [&](std::size_t first, std::size_t last) {
+    parallel_for_own(ranks, 0, places.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t n = first; n < last; ++n)
             charts[n] = chart_noise(chart_at(places[n], scene, by_side), light, of);
     });
+    share_blocks(ranks, 0, places.size(),
+                 [&](auto& archive, std::size_t n) { archive(charts[n]); });
     return in_order(std::move(charts));
 }
 

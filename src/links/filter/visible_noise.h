@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "atlas/prepare/solve_scene.h"
+#include "base/ranks/ranks.h"
 #include "links/filter/mean.h"
 #include "solve/solver/solver_state.h"
 
@@ -36,6 +37,12 @@ struct ChartNoise {
     double light = 0.0;                 ///< their mean luminance [lx]
     std::vector<NoisePower> power;      ///< by each mean
 
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(lumels, light, power);
+    }
+
     double power_in(std::size_t band) const;
     std::size_t worst_band() const;
 };
@@ -48,9 +55,9 @@ ChartNoise chart_noise(const NoiseChart& chart, const std::vector<float>& light,
                        const std::vector<const Mean*>& of);
 
 /// Of the charts of a scene, the cleanest first, without those that are nearly black or too small
-/// to tell. The other arguments: as in chart_noise().
+/// to tell. ranks: that share the work; null: none. The other arguments: as in chart_noise().
 std::vector<ChartNoise> noise_of_charts(const SolveScene& scene, const std::vector<float>& light,
-                                        const std::vector<const Mean*>& of);
+                                        const std::vector<const Mean*>& of, Ranks* ranks = nullptr);
 
 /// Without charts that are nearly black or too small to tell, the cleanest first.
 std::vector<ChartNoise> in_order(std::vector<ChartNoise> charts);

@@ -81,7 +81,7 @@ void LinkRadiosity::find_visible_noise()
     std::vector<const Mean*> means = {&mean_};
     if (parts_wanted_ != Parts::indirect)
         means.push_back(&direct_mean_);
-    noise_ = noise_of_charts(work_.scene, light, means);
+    noise_ = noise_of_charts(work_.scene, light, means, work_.ranks);
     state_.visible_noise = visible_noise(noise_);
     visible_ = {};
     if (!noise_.empty()) {
