@@ -15,9 +15,10 @@ void read_checkpoint(Input input)
     std::string version, scene;
     double seconds = 0.0;
     std::vector<ConvergencePoint> curve;
-    LinkTable links(0);
+    std::vector<std::vector<LinkBlock>> links;
+    std::vector<glm::vec3> sky;
     std::map<std::string, double> times;
-    reader(version, scene, seconds, curve, links, times);
+    reader(version, scene, seconds, curve, links, sky, times);
     reader.finish();
 }
 

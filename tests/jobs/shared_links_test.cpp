@@ -1,9 +1,13 @@
 // Ranks that share the work of links find what one process finds, bit for bit.
 
+#include <sstream>
+#include <string>
+
 #include "../support/closed_forms.h"
 #include "../support/source_folder.h"
 #include "../support/thread_ranks.h"
 #include "atlas/near/buried.h"
+#include "base/core/state_bytes.h"
 #include "links/trace/links.h"
 #include "solved.h"
 
@@ -30,6 +34,29 @@ std::vector<glm::vec3> solved(const SolveScene& world, Ranks* ranks)
     return solver.irradiance();
 }
 
+/// Stopped in the second round.
+std::string state_of_unfinished(const SolveScene& world, Ranks* ranks)
+{
+    LinkRadiosity solver = solver_of(world, ranks);
+    while (solver.state().shots == 0)
+        solver.step();
+    solver.step();
+    std::ostringstream stream;
+    StateWriter writer(stream);
+    solver.write_state(writer);
+    return stream.str();
+}
+
+std::vector<glm::vec3> continued(const SolveScene& world, const std::string& state, Ranks* ranks)
+{
+    LinkRadiosity solver = solver_of(world, ranks);
+    std::istringstream stream(state);
+    StateReader reader(stream, state.size(), "state");
+    solver.read_state(reader);
+    solve(solver, kLimits);
+    return solver.irradiance();
+}
+
 TEST_F(RanksOfLinks, FindTheSameLightAsOneProcess)
 {
     const SolveScene cornell(read_gltf(support::scene_path("cornell-box")),
@@ -43,6 +70,45 @@ TEST_F(RanksOfLinks, FindTheSameLightAsOneProcess)
                 ranks.finish(0);
             });
     }
+}
+
+TEST_F(RanksOfLinks, ContinueWhatAnotherNumberOfThemHasBegun)
+{
+    const std::vector<glm::vec3> whole = solved(world, nullptr);
+    std::string state;
+    support::run_ranks(2, [&](Ranks& ranks) {
+        std::string own = state_of_unfinished(world, &ranks);
+        if (ranks.is_first())
+            state = std::move(own);
+        ranks.finish(0);
+    });
+    EXPECT_EQ(continued(world, state, nullptr), whole);
+    support::run_ranks(3, [&](Ranks& ranks) {
+        EXPECT_EQ(continued(world, state, &ranks), whole);
+        ranks.finish(0);
+    });
+}
+
+TEST_F(RanksOfLinks, GiveTheFirstTheLinksOfAll)
+{
+    const auto kept = [&](Ranks* ranks) {
+        LinkRadiosity solver = solver_of(world, ranks);
+        solve(solver, kLimits);
+        solver.gather_links();
+        return ranks && !ranks->is_first() ? StoredLinks{} : solver.kept("");
+    };
+    const StoredLinks alone = kept(nullptr);
+    support::run_ranks(2, [&](Ranks& ranks) {
+        const StoredLinks gathered = kept(&ranks);
+        if (ranks.is_first()) {
+            ASSERT_EQ(gathered.rounds.size(), alone.rounds.size());
+            for (std::size_t r = 0; r < alone.rounds.size(); ++r) {
+                EXPECT_EQ(gathered.rounds[r].rays, alone.rounds[r].rays);
+                EXPECT_EQ(gathered.rounds[r].ends, alone.rounds[r].ends);
+            }
+        }
+        ranks.finish(0);
+    });
 }
 
 TEST_F(RanksOfLinks, FindTheSameVisibleNoise)

@@ -86,7 +86,7 @@ void parallel_for_others(const Ranks* ranks, std::size_t first, std::size_t last
         return;
     parallel_for(last - first, grain, [&](std::size_t from, std::size_t to) {
         for (std::size_t b = first + from; b < first + to; ++b)
-            if (b % ranks->count() != ranks->rank())
+            if (!is_own(ranks, b))
                 body(b, b + 1);
     });
 }
@@ -144,6 +144,22 @@ void share_bytes(Ranks* ranks, std::size_t first, std::size_t last,
             const std::span<std::byte> block = of(b);
             std::copy_n(from, block.size(), block.begin());
             from += block.size();
+        }
+    }
+}
+
+void add_up(Ranks* ranks, std::span<std::int64_t> sums)
+{
+    if (count_of(ranks) == 1)
+        return;
+    const Ranks::Gathered all = ranks->all_gather(std::as_bytes(sums));
+    for (std::size_t r = 0; r < ranks->count(); ++r) {
+        if (r == ranks->rank())
+            continue;
+        for (std::size_t k = 0; k < sums.size(); ++k) {
+            std::int64_t one = 0;
+            std::memcpy(&one, all.of(r).data() + k * sizeof one, sizeof one);
+            sums[k] += one;
         }
     }
 }

@@ -2,6 +2,7 @@
 // Loops over blocks that ranks share: block b is of rank b mod count, in every loop.
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 
@@ -14,6 +15,11 @@ namespace lumel {
 inline std::size_t count_of(const Ranks* ranks)
 {
     return ranks ? ranks->count() : 1;
+}
+
+inline bool is_own(const Ranks* ranks, std::size_t block)
+{
+    return count_of(ranks) == 1 || block % ranks->count() == ranks->rank();
 }
 
 /// parallel_for over the blocks of [first, last) that are this rank's.
@@ -41,5 +47,8 @@ void share_blocks(Ranks* ranks, std::size_t first, std::size_t last, const State
 /// The same for blocks whose bytes stay in place: of(block).
 void share_bytes(Ranks* ranks, std::size_t first, std::size_t last,
                  const std::function<std::span<std::byte>(std::size_t block)>& of);
+
+/// Adds the sums of all ranks. Integers, since sums of rounded numbers depend on their order.
+void add_up(Ranks* ranks, std::span<std::int64_t> sums);
 
 }  // namespace lumel

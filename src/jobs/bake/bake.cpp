@@ -33,6 +33,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
 {
     const bool writes = !ranks || ranks->is_first();
     options.atlas = atlas_that_fits(options);
+    options.ranks = ranks ? ranks->count() : 1;
     const MethodInfo& method = method_of(options.solver.method);
     check_parts(options);
     check_keep_links(options);
@@ -64,11 +65,13 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     limit_links(options, setting.prepared, limits);
     if (ranks)
         agree_on_limits(*ranks, options);
-    Checkpoint checkpoint(folder, options, setting.prepared);
+    Checkpoint checkpoint(folder, options, setting.prepared, writes);
     const std::unique_ptr<Solution> solution =
         keeps_sources_apart(options)
             ? solve_sources(device, setting, options, stages)
             : solve_light(&device, setting, options, stages, &checkpoint, ranks);
+    if (ranks && gathers_links(options))
+        dynamic_cast<LinkRadiosity&>(*solution->solver).gather_links();
     const std::vector<RankCost> costs = ranks ? ranks->costs() : std::vector<RankCost>();
     if (!writes)
         return {};

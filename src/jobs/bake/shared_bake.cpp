@@ -9,6 +9,7 @@
 
 #include "base/core/error.h"
 #include "base/core/usage.h"
+#include "jobs/solve/host_memory.h"
 #include "methods/methods.h"
 
 namespace lumel {
@@ -80,8 +81,8 @@ void agree_on_limits(Ranks& ranks, BakeOptions& options)
     // 0 is no limit.
     for (std::uint64_t* const limit : {&options.solver.max_bytes, &options.solver.max_device_bytes})
         *limit = std::ranges::min(ranks.all(*limit - 1)) + 1;
-    if (!ranks.is_first())
-        options.checkpoint_seconds = 0.0;
+    if (options.solver.max_bytes > 0 && gathers_links(options))
+        options.solver.max_bytes = options.solver.max_bytes / ranks.count() + 1;
 }
 
 }  // namespace lumel

@@ -18,7 +18,7 @@ void check_ranks(Ranks& ranks, const BakeOptions& options, Stages& stages);
 void check_folder(Ranks& ranks, const std::string& folder,
                   const std::optional<OutputFolder>& output);
 
-/// Makes limits of memory common, and leaves checkpoints to the first rank.
+/// Makes limits of memory common.
 void agree_on_limits(Ranks& ranks, BakeOptions& options);
 
 }  // namespace lumel

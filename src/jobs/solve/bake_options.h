@@ -37,6 +37,7 @@ struct BakeOptions {
     bool keep_links = false;     ///< stores the links for later runs
     std::string dump;            ///< folder for intermediate images, see dump.h; empty: none
     bool resume = false;         ///< continues from a checkpoint, if there is one
+    std::size_t ranks = 1;       ///< processes that share the bake; bake() sets it
     double checkpoint_seconds = 60.0;  ///< between checkpoints, see Checkpoint; 0: none
     /// Limit for host and device each [bytes]; 0: available memory.
     std::uint64_t max_memory = 0;

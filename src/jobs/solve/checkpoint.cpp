@@ -70,10 +70,11 @@ void check_resume(const BakeOptions& options)
 }
 
 Checkpoint::Checkpoint(const std::string& folder, const BakeOptions& options,
-                       const SolveScene& prepared)
+                       const SolveScene& prepared, bool writes)
     : path_((fs::path(folder) / kCheckpointFile).string()),
       can_(method_of(options.solver.method).can_resume),
       resume_(options.resume),
+      writes_(writes),
       unit_(method_of(options.solver.method).shots),
       every_(options.checkpoint_seconds),
       origin_{.version = lumel_version(),
@@ -137,35 +138,48 @@ double Checkpoint::seconds_of_older(std::uint64_t size) const
     }
 }
 
-void Checkpoint::keep(Solver& solver, const Run& run)
+bool Checkpoint::is_due(const Run& run) const
 {
-    if (!can_ || every_ <= 0.0 || wall_seconds() < next_ || (older_ && run.seconds <= *older_))
-        return;
-    write(solver, run);
+    return can_ && every_ > 0.0 && wall_seconds() >= next_ && !(older_ && run.seconds <= *older_);
+}
+
+void Checkpoint::warn(const Error& error)
+{
+    if (!warned_)
+        log_warning(std::string("no checkpoint written: ") + error.what());
+    warned_ = true;
 }
 
 bool Checkpoint::write(Solver& solver, const Run& given)
 {
     bool is_written = false;
     const double start = wall_seconds();
+    std::optional<OutputFile> output;
+    std::ofstream file;  // unless it opens, it takes nothing, but ranks stay in step
     try {
-        OutputFile output(path_);
-        std::ofstream file(output.path(), std::ios::binary);
-        file.write(kMagic, sizeof kMagic);
-        StateWriter writer(file);
-        Run run = given;
-        writer(origin_, run.seconds, run.curve);
-        solver.write_state(writer);
-        writer.finish();
-        file.close();
-        if (!file)
-            throw Error(ErrorKind::output, path_, std::strerror(errno));
-        output.commit();
-        is_written = true;
+        if (writes_) {
+            output.emplace(path_);
+            file.open(output->path(), std::ios::binary);
+        }
     } catch (const Error& error) {
-        if (!warned_)
-            log_warning(std::string("no checkpoint written: ") + error.what());
-        warned_ = true;
+        warn(error);
+    }
+    file.write(kMagic, sizeof kMagic);
+    StateWriter writer(file);
+    Run run = given;
+    writer(origin_, run.seconds, run.curve);
+    solver.write_state(writer);
+    writer.finish();
+    file.close();
+    try {
+        if (output && !file)
+            throw Error(ErrorKind::output, path_, std::strerror(errno));
+        if (output) {
+            output->commit();
+            is_written = true;
+        }
+    } catch (const Error& error) {
+        warn(error);
     }
     const double now = wall_seconds();
     next_ = now + std::max(every_, kRest * (now - start));
@@ -179,7 +193,7 @@ bool Checkpoint::stop(Solver& solver, const Run& run)
     if (resume_) {
         return every_ > 0.0 && write(solver, run);
     }
-    if (!older_) {
+    if (writes_ && !older_) {
         std::error_code ignored;
         fs::remove(path_, ignored);
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "atlas/prepare/solve_scene.h"
+#include "base/core/error.h"
 #include "jobs/solve/bake_options.h"
 #include "results/record/report.h"
 #include "solve/solver/solver.h"
@@ -29,14 +30,19 @@ public:
         std::vector<ConvergencePoint> curve;
     };
 
-    Checkpoint(const std::string& folder, const BakeOptions& options, const SolveScene& prepared);
+    /// writes: false for ranks that take part in writing, but leave the file to the first.
+    Checkpoint(const std::string& folder, const BakeOptions& options, const SolveScene& prepared,
+               bool writes = true);
 
     /// With --resume: loads the checkpoint if there is one, and returns its status. Throws
     /// Error{input} if it is of other work or damaged.
     Run take_up(Solver& solver);
-    /// Writes a checkpoint if one is due. On failure, warns and keeps the previous one. Without
-    /// --resume it replaces another bake's checkpoint only after solving for longer than that.
-    void keep(Solver& solver, const Run& run);
+    /// True if it is time to write. Without --resume, a bake replaces another bake's checkpoint
+    /// only after solving for longer than that.
+    bool is_due(const Run& run) const;
+    /// Writes a checkpoint, all ranks together. On failure, warns once, keeps the previous one and
+    /// returns false.
+    bool write(Solver& solver, const Run& run);
     /// For a solve stopped by the user: keeps the checkpoint with --resume, and returns true if it
     /// is written; otherwise removes it, unless it existed before this bake.
     bool stop(Solver& solver, const Run& run);
@@ -54,11 +60,10 @@ private:
     };
 
     double seconds_of_older(std::uint64_t size) const;
-    /// Returns false, and warns once, if the file cannot be written.
-    bool write(Solver& solver, const Run& run);
+    void warn(const Error& error);
 
     std::string path_;
-    bool can_, resume_;
+    bool can_, resume_, writes_;
     const char* unit_;  ///< name of shots
     double every_;      ///< [s], 0: never
     Origin origin_;

@@ -114,18 +114,26 @@ std::uint64_t writing_bytes(const Sizes& sizes, std::uint64_t layers)
     return std::max({map, solution, scene, toning, baked});
 }
 
-std::uint64_t bytes_of_links(const Sizes& sizes, const SolverOptions& solver)
+/// Lumels whose links are in memory.
+std::size_t linked_lumels(const Sizes& sizes, const BakeOptions& options)
 {
-    const std::uint32_t even = std::get<LinksOptions>(solver.method).even_rays;
-    return even > 0 ? LinkRadiosity::first_bytes(sizes.lumels, even, sizes.lamps)
-                    : LinkRadiosity::likely_bytes(sizes.lumels, solver.max_shots, sizes.lamps);
+    return gathers_links(options) ? sizes.lumels
+                                  : LinkRadiosity::lumels_per_rank(sizes.lumels, options.ranks);
+}
+
+std::uint64_t bytes_of_links(const Sizes& sizes, const BakeOptions& options)
+{
+    const std::uint32_t even = std::get<LinksOptions>(options.solver.method).even_rays;
+    const std::size_t lumels = linked_lumels(sizes, options);
+    return even > 0 ? LinkRadiosity::first_bytes(lumels, even, sizes.lamps)
+                    : LinkRadiosity::likely_bytes(lumels, options.solver.max_shots, sizes.lamps);
 }
 
 /// Copies of all links while they are written: as StoredLinks, packed, and twice in a stream.
 std::uint64_t kept_bytes(const Sizes& sizes, const BakeOptions& options)
 {
     constexpr std::uint64_t kCopies = 4;
-    return options.keep_links ? kCopies * bytes_of_links(sizes, options.solver) : 0;
+    return options.keep_links ? kCopies * bytes_of_links(sizes, options) : 0;
 }
 
 /// Memory of the largest stage, in addition to permanent data.
@@ -162,9 +170,10 @@ void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& optio
     if (!uses_links(options))
         return;
     memory.solver = LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels, sizes.lamps);
-    memory.links = bytes_of_links(sizes, options.solver);
+    memory.links = bytes_of_links(sizes, options);
     memory.first_links = LinkRadiosity::first_bytes(
-        lumels, std::get<LinksOptions>(options.solver.method).even_rays, sizes.lamps);
+        linked_lumels(sizes, options), std::get<LinksOptions>(options.solver.method).even_rays,
+        sizes.lamps);
 }
 
 /// The sizes that do not depend on the map's side.

@@ -25,6 +25,12 @@ inline bool keeps_lamps_apart(const BakeOptions& options)
     return uses_links(options) && std::get<LinksOptions>(options.solver.method).per_lamp;
 }
 
+/// True if the first of several ranks needs the links of all in the end.
+inline bool gathers_links(const BakeOptions& options)
+{
+    return options.keep_links || keeps_lamps_apart(options);
+}
+
 /// Triangles of all instances.
 std::uint64_t triangle_count(const Scene& scene);
 

@@ -137,16 +137,21 @@ private:
     std::uint64_t next_ = 0;
 };
 
-/// True if no rank wants to stop. seconds: become those of the first rank.
-bool is_wanted_by_all(Ranks& ranks, bool wants_more, double& seconds)
+/// What is to follow a step.
+struct Wish {
+    double seconds;  ///< of solving so far
+    bool wants_more, wants_checkpoint;
+};
+
+/// That of all ranks: the first one has the clock, each can stop them.
+Wish of_all(Ranks* ranks, const Wish& own)
 {
-    struct Wish {
-        double seconds;
-        bool wants_more;
-    };
-    const std::vector<Wish> wishes = ranks.all(Wish{seconds, wants_more});
-    seconds = wishes.front().seconds;
-    return std::ranges::all_of(wishes, &Wish::wants_more);
+    if (!ranks)
+        return own;
+    const std::vector<Wish> wishes = ranks->all(own);
+    Wish common = wishes.front();
+    common.wants_more = std::ranges::all_of(wishes, &Wish::wants_more);
+    return common;
 }
 
 }  // namespace
@@ -257,13 +262,14 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stag
             curve.push_back({state.shots, so_far.seconds, state.error});
         const bool wants_more = stages.progress(solved_fraction(options, state, so_far.seconds),
                                                 state.shots, state.error);
-        seconds = stages.stage_seconds();
-        const bool goes_on = ranks ? is_wanted_by_all(*ranks, wants_more, seconds) : wants_more;
-        if (!goes_on)
+        const Wish wish = of_all(
+            ranks, {stages.stage_seconds(), wants_more, checkpoint && checkpoint->is_due(so_far)});
+        seconds = wish.seconds;
+        if (!wish.wants_more)
             stages.stop();
-        if (checkpoint)
-            checkpoint->keep(solver, so_far);
-        return goes_on;
+        if (wish.wants_checkpoint)
+            checkpoint->write(solver, so_far);
+        return wish.wants_more;
     };
     run.finished = solve(solver, limits, go_on, [&] { return seconds; });
     const bool kept = !run.finished && checkpoint && checkpoint->stop(solver, so_far);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/core/error.h"
+#include "links/kept/link_rows.h"
 
 namespace lumel {
 namespace {
@@ -77,23 +78,20 @@ std::size_t LinkTable::bytes() const
     return bytes;
 }
 
-bool LinkTable::fits(const std::vector<std::uint32_t>& order, const SubLumels& parts,
-                     const LinkNumbers& numbers, std::size_t traced, std::size_t lamps) const
+bool LinkTable::fits(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
+                     std::size_t traced, std::size_t lamps) const
 {
-    const std::size_t blocks = (order.size() + kLinkBlock - 1) / kLinkBlock;
-    const auto block_fits = [&](const LinkBlock& block, std::size_t b, bool is_traced) {
-        const std::size_t first = b * kLinkBlock;
-        const auto lumels =
-            std::span(order).subspan(first, std::min(kLinkBlock, order.size() - first));
-        return is_traced ? lumel::fits(block, lumels, parts, numbers, lamps)
-                         : lumel::fits(block, {}, parts, numbers, lamps);
-    };
     for (std::size_t r = 0; r < rounds.size(); ++r) {
-        if (rounds[r].size() != blocks)
+        if (rounds[r].size() != blocks_of(work))
             return false;
-        for (std::size_t b = 0; b < blocks; ++b)
-            if (!block_fits(rounds[r][b], b, r + 1 < rounds.size() || b < traced))
+        for (std::size_t b = 0; b < rounds[r].size(); ++b) {
+            const bool is_traced = r + 1 < rounds.size() || b < traced;
+            const auto lumels = is_traced && is_own(work.ranks, b)
+                                    ? lumels_of(work, b)
+                                    : std::span<const std::uint32_t>();
+            if (!lumel::fits(rounds[r][b], lumels, parts, numbers, lamps))
                 return false;
+        }
     }
     return sky.size() == parts.count();
 }

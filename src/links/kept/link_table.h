@@ -15,6 +15,8 @@
 
 namespace lumel {
 
+struct LinkWork;
+
 /// End of a ray: the number of what it hit, and the hit cell of a lumel.
 struct LinkEnd {
     static constexpr std::uint32_t kCellBits = 4, kMaxNumber = (1u << (32 - kCellBits)) - 1;
@@ -182,7 +184,8 @@ private:
     std::uint32_t lumel_ = 0, slot_ = 0, from_ = 0, near_ = 0, share_ = 0;
 };
 
-/// Links of one of several independent solutions.
+/// Links of one of several independent solutions. Of several ranks, each has those of its blocks;
+/// others are empty.
 struct LinkTable {
     explicit LinkTable(std::size_t parts) : sky(parts, glm::vec3(0.0f)) {}
 
@@ -191,16 +194,10 @@ struct LinkTable {
 
     /// Memory of links [bytes].
     std::size_t bytes() const;
-    /// True if all indices are valid: of lumels in this order, of sub-lumels and of numbers.
-    /// traced: blocks of the last round that are not empty. lamps: kept apart.
-    bool fits(const std::vector<std::uint32_t>& order, const SubLumels& parts,
-              const LinkNumbers& numbers, std::size_t traced, std::size_t lamps) const;
-
-    template <class Archive>
-    void state(Archive& archive)
-    {
-        archive(rounds, sky);
-    }
+    /// True if all indices are valid: of lumels in the order of work, of sub-lumels and of numbers.
+    /// traced: blocks of the last round that are not empty, of this rank's. lamps: kept apart.
+    bool fits(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
+              std::size_t traced, std::size_t lamps) const;
 };
 
 }  // namespace lumel

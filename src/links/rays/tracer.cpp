@@ -368,6 +368,10 @@ void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sendi
     }
     for (std::size_t b = first; b < last; ++b) {
         LinkBlock& block = into.rounds.back()[b];
+        if (!is_own(work_.ranks, b)) {
+            block = {};  // of bundles, which each rank traces for all
+            continue;
+        }
         block.ends.shrink_to_fit();
         block.from.shrink_to_fit();
         block.near.shrink_to_fit();

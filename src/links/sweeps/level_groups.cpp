@@ -8,6 +8,7 @@
 #include "base/core/error.h"
 #include "base/core/frame.h"
 #include "base/core/parallel.h"
+#include "links/kept/link_rows.h"
 
 namespace lumel {
 namespace {
@@ -20,9 +21,10 @@ constexpr double kMaxFactor = 64.0;
 constexpr double kMinArea = 1e-30;
 /// A pivot below this means that all light of a group returns to it.
 constexpr double kSingular = 1e-7;
-/// Partial sums, computed in parallel: a fixed number, so that results do not depend on the number
-/// of cores.
+/// Partial sums, computed in parallel.
 constexpr std::size_t kSums = 16;
+/// Fixed-point numbers per unit: of 1e9 links of a group each still counts to a thousandth.
+constexpr double kPerUnit = double(std::int64_t(1) << 40);
 
 }  // namespace
 
@@ -136,26 +138,29 @@ LevelCorrection::Found LevelCorrection::find(std::span<const GroupSums> sums) co
 /// 1 - K.
 void LevelCorrection::count_links(const Links& links)
 {
-    const std::vector<std::uint32_t>& order = links.work.order;
-    const std::size_t blocks = (order.size() + kLinkBlock - 1) / kLinkBlock;
+    const LinkWork& work = links.work;
+    const std::size_t blocks = blocks_of(work);
     std::vector<Rows> sums(kSums, Rows(size_));
     parallel_for(kSums, 1, [&](std::size_t from, std::size_t to) {
         for (std::size_t s = from; s < to; ++s)
-            for (const std::vector<LinkBlock>& round : links.table.rounds)
-                for (std::size_t b = s * blocks / kSums; b < (s + 1) * blocks / kSums; ++b) {
-                    LinkRows rows(round[b]);
-                    const std::size_t end = std::min((b + 1) * kLinkBlock, order.size());
-                    for (std::size_t o = b * kLinkBlock; o < end; ++o)
-                        count_row(links, order[o], rows.next(links.parts.has_hidden(order[o])),
-                                  sums[s]);
-                }
+            for (std::size_t b = s * blocks / kSums; b < (s + 1) * blocks / kSums; ++b)
+                for (const std::vector<LinkBlock>& round : links.table.rounds)
+                    if (is_own(work.ranks, b))
+                        visit_rows(work, links.parts, round[b], b,
+                                   [&](const LinkRow& row, std::uint32_t i) {
+                                       count_row(links, i, row, sums[s]);
+                                   });
     });
+    std::vector<std::int64_t> all(size_ * size_ * 3, 0);
     for (const Rows& rows : sums)
         for (std::size_t a = 0; a < size_; ++a)
             for (std::size_t b = 0; b < rows[a].size(); ++b)
-                for (int c = 0; c < 3; ++c)
-                    inverse_[c][a * size_ + b] -=
-                        rows[a][b][c] / std::max(group_areas_[a], kMinArea);
+                for (std::size_t c = 0; c < 3; ++c)
+                    all[(a * size_ + b) * 3 + c] += rows[a][b][c];
+    add_up(work.ranks, all);
+    for (std::size_t ab = 0; ab < size_ * size_; ++ab)
+        for (std::size_t c = 0; c < 3; ++c)
+            inverse_[c][ab] -= double(all[ab * 3 + c]) / kPerUnit;
     for (std::size_t g = 0; g < size_; ++g)
         for (std::vector<double>& channel : inverse_)
             channel[g * size_ + g] += 1.0;
@@ -172,11 +177,15 @@ void LevelCorrection::count_row(const Links& links, std::uint32_t i, const LinkR
         if (links.rays[end] == 0.0f)
             return;
         const std::uint32_t p = links.parts.first(i) + row.leaves(links.parts, i, k);
-        std::vector<glm::dvec3>& sum = sums[groups_.of_part[p]];
+        const std::uint32_t group = groups_.of_part[p];
+        auto& sum = sums[group];
         if (sum.empty())
-            sum.assign(size_, glm::dvec3(0.0));
-        sum[groups_.of_part[end]] +=
-            double(row.weight(k)) * double(areas_[p]) / double(links.rays[p]) * albedo * weight;
+            sum.assign(size_, {});
+        const double share = double(row.weight(k)) * double(areas_[p]) / double(links.rays[p]) /
+                             std::max(group_areas_[group], kMinArea);
+        for (int c = 0; c < 3; ++c)
+            sum[groups_.of_part[end]][std::size_t(c)] +=
+                std::llround(kPerUnit * share * albedo[c] * weight[c]);
     };
     for (std::size_t k = 0; k < row.ends.size(); ++k)
         add(k, row.ends[k], glm::dvec3(1.0));

@@ -1,6 +1,7 @@
 #pragma once
 // Correction of the level of light in groups of sub-lumels, where sweeps are slow.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -47,8 +48,9 @@ public:
     Found find(std::span<const GroupSums> sums) const;
 
 private:
-    /// Rows of K, scaled by the area of their group; those that no link leaves are empty.
-    using Rows = std::vector<std::vector<glm::dvec3>>;  ///< [groups][groups or 0]
+    /// Rows of K in fixed point, whose sums do not depend on their order; those that no link leaves
+    /// are empty.
+    using Rows = std::vector<std::vector<std::array<std::int64_t, 3>>>;  ///< [groups][groups or 0]
     struct Links;
 
     void list_members();

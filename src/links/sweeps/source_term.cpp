@@ -5,51 +5,17 @@
 
 #include "base/core/parallel.h"
 #include "base/core/precise.shared.h"
-#include "base/ranks/rank_blocks.h"
+#include "links/kept/link_rows.h"
 
 namespace lumel {
 namespace {
 
-/// Lumels, and blocks of links, per task.
-constexpr std::size_t kSourcesPerTask = 4096, kSourceBlocksPerTask = 4;
+/// Lumels per task.
+constexpr std::size_t kSourcesPerTask = 4096;
 
 /// Minimum distance of a hit [sides of the lumel]: lumels that touch other geometry there are in
 /// contact anyway.
 constexpr float kLeastDistance = 1e-3f;
-
-std::size_t blocks_of(const LinkWork& work)
-{
-    return (work.order.size() + kLinkBlock - 1) / kLinkBlock;
-}
-
-/// Calls visit(row, lumel) for all rows of this rank, in parallel; rows of one lumel one after
-/// another.
-template <class Visit>
-void for_each_row(const LinkWork& work, const SubLumels& parts, const LinkTable& links,
-                  const Visit& visit)
-{
-    const auto visit_blocks = [&](std::size_t from, std::size_t to) {
-        for (std::size_t b = from; b < to; ++b)
-            for (const std::vector<LinkBlock>& round : links.rounds) {
-                LinkRows rows(round[b]);
-                const std::size_t end = std::min((b + 1) * kLinkBlock, work.order.size());
-                for (std::size_t o = b * kLinkBlock; o < end; ++o)
-                    visit(rows.next(parts.has_hidden(work.order[o])), work.order[o]);
-            }
-    };
-    parallel_for_own(work.ranks, 0, blocks_of(work), kSourceBlocksPerTask, visit_blocks);
-}
-
-/// Gives each rank what the others have found of their rows. state(archive, lumel).
-template <class State>
-void share_rows(const LinkWork& work, const State& state)
-{
-    share_blocks(work.ranks, 0, blocks_of(work), [&](auto& archive, std::size_t b) {
-        const std::size_t end = std::min((b + 1) * kLinkBlock, work.order.size());
-        for (std::size_t o = b * kLinkBlock; o < end; ++o)
-            state(archive, work.order[o]);
-    });
-}
 
 /// [P] 1 for sub-lumels from which no ray was sent: what they receive is not known.
 std::vector<char> unknown_parts(const LinkWork& work, const SubLumels& parts,

@@ -7,7 +7,7 @@
 
 #include "base/core/error.h"
 #include "base/core/parallel.h"
-#include "base/ranks/rank_blocks.h"
+#include "links/kept/link_rows.h"
 #include "links/sweeps/light_change.h"
 
 namespace lumel {
@@ -192,7 +192,7 @@ public:
     void sweep_all()
     {
         Ranks* const ranks = solver_.work_.ranks;
-        const std::size_t blocks = (solver_.work_.order.size() + kLinkBlock - 1) / kLinkBlock;
+        const std::size_t blocks = blocks_of(solver_.work_);
         parallel_for_own(ranks, 0, blocks, kBlocksPerTask,
                          [&](std::size_t first, std::size_t last) {
                              for (std::size_t b = first; b < last; ++b)
@@ -230,10 +230,6 @@ public:
     void advance() { sent_.swap(next_); }
 
 private:
-    struct PartRange {
-        std::size_t first, last;
-    };
-
     std::uint32_t number(std::size_t part) const
     {
         return solver_.numbers_.of_part(std::uint32_t(part));
@@ -264,9 +260,7 @@ private:
     /// The sub-lumels of a block, which are numbered in the order of lumels.
     PartRange parts_of(std::size_t b) const
     {
-        const std::vector<std::uint32_t>& order = solver_.work_.order;
-        const std::size_t end = std::min((b + 1) * kLinkBlock, order.size());
-        return {solver_.parts_.first(order[b * kLinkBlock]), solver_.parts_.end(order[end - 1])};
+        return lumel::parts_of(solver_.work_, solver_.parts_, b);
     }
 
     LaneLight<Lanes> source(std::uint32_t part) const
@@ -279,14 +273,12 @@ private:
 
     void sweep_block(std::size_t b)
     {
-        const std::vector<std::uint32_t>& order = solver_.work_.order;
         const SubLumels& parts = solver_.parts_;
         std::vector<LinkRows> rounds;
         for (const std::vector<LinkBlock>& round : system_.links.rounds)
             rounds.emplace_back(round[b]);
-        const std::size_t end = std::min((b + 1) * kLinkBlock, order.size());
-        for (std::size_t o = b * kLinkBlock; o < end; ++o) {
-            const std::uint32_t i = order[o], first = parts.first(i), last = parts.end(i);
+        for (const std::uint32_t i : lumels_of(solver_.work_, b)) {
+            const std::uint32_t first = parts.first(i), last = parts.end(i);
             std::array<LaneLight<Lanes>, kMaxParts> sums;
             if (parts.has_hidden(i)) {
                 for (std::uint32_t p = first; p < last; ++p)

@@ -24,10 +24,10 @@
 #include "base/core/luminance.h"
 #include "base/core/state_bytes.h"
 #include "base/core/usage.h"
-#include "base/ranks/rank_blocks.h"
 #include "links/direct/deviation.h"
 #include "links/filter/adapted_light.h"
 #include "links/filter/visible_noise.h"
+#include "links/kept/link_rows.h"
 #include "links/rays/shared_directions.h"
 #include "links/trace/link_casters.h"
 #include "rays/paths/samples.h"
@@ -148,8 +148,10 @@ void LinkRadiosity::state(Archive& archive)
             direct_mean_.apart, direct_mean_.bend, round_, mean_rays_, means_, rays_, guide_,
             traced_, mean_.light, mean_.noise, mean_.wrong, mean_.apart, mean_.bend, mean_light_,
             adapted_, all_, dark_, eye_, refined_, state_, times_);
-    for (std::size_t k = 0; k < kSolutions; ++k)
-        archive(*links_[k], sources_[k].rays, received_[k], swept_sky_[k]);
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        links_state(archive, *links_[k]);
+        archive(sources_[k].rays, received_[k], swept_sky_[k]);
+    }
 }
 
 void LinkRadiosity::write_state(StateWriter& writer)
@@ -196,7 +198,7 @@ bool LinkRadiosity::is_consistent() const
                 (stage_ != Stage::solve || traced_ == tracer_->blocks());
     for (std::size_t k = 0; k < kSolutions; ++k)
         fits = fits && links_[k]->rounds.size() == round_ + (is_tracing ? 1 : 0) &&
-               links_[k]->fits(work_.order, *parts_, *numbers_, traced, lamp_count()) &&
+               links_[k]->fits(work_, *parts_, *numbers_, traced, lamp_count()) &&
                swept_sky_[k].size() == (lamps_ && !mean_.light.empty() ? parts : 0) &&
                received_[k].size() >= (mean_.light.empty() ? 0 : parts) &&
                is(received_[k].size(), parts) &&
@@ -259,7 +261,7 @@ void LinkRadiosity::trace()
                 LinkTracer::Known{changes_, stored_->rounds[round_], first_rays_, k});
         tracer_->trace(traced_, last, sending, *links_[k]);
     }
-    share_links(traced_, last);
+    share_sky(traced_, last);
     traced_ = last;
 }
 

@@ -51,6 +51,9 @@ public:
     /// lumel (0: no limit) [bytes].
     static std::uint64_t device_sweep_bytes(std::size_t lumels, std::uint64_t shots);
 
+    /// Lumels at most of which one of several ranks keeps the links.
+    static std::size_t lumels_per_rank(std::size_t lumels, std::size_t ranks);
+
     /// Host memory of the first round's links [bytes]. even_rays: as in LinksOptions.
     /// lamps: kept apart.
     static std::uint64_t first_bytes(std::size_t lumels, std::uint32_t even_rays,
@@ -126,11 +129,15 @@ public:
     /// Returns `whole` as filtered: reflected light, then direct.
     std::array<Mean, 2> filter_outside(const OutsideLight& whole, std::span<Estimates> direct,
                                        std::span<Estimates> reflected);
+    /// Of several ranks, gives the first one the links of all, as kept() and light_of_lamps() need.
+    void gather_links();
     /// Links to store for a later run, after a round has ended. hash: Scene::hash.
     StoredLinks kept(const std::string& hash) const;
-    std::uint64_t sent() const;    ///< rays of lumels
-    std::uint64_t traced() const;  ///< those whose ends were not known
+    /// Rays that lumels of this rank's blocks have sent; traced(): those whose ends were not known.
+    std::uint64_t sent() const;
+    std::uint64_t traced() const;
 
+    /// Several ranks write together; the first one's state is complete.
     void write_state(StateWriter& writer) override;
     void read_state(StateReader& reader) override;
 
@@ -167,7 +174,9 @@ private:
     void cut();
     void find_light();
     void trace();
-    void share_links(std::size_t first, std::size_t last);
+    void share_sky(std::size_t first, std::size_t last);
+    void links_state(StateWriter& writer, LinkTable& links);
+    void links_state(StateReader& reader, LinkTable& links);
     void check_agreement() const;
     void begin_round();
     void begin_known_round();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/core/usage.h"
+#include "base/ranks/rank_blocks.h"
 #include "links/trace/links.h"
 
 namespace lumel {
@@ -110,7 +111,13 @@ std::uint64_t LinkRadiosity::lamp_bytes(std::size_t lumels, std::size_t lamps)
     return light + std::max(lumels * std::uint64_t(kSweeps), filter);
 }
 
-/// Further rays per lumel and solution that fit in memory.
+std::size_t LinkRadiosity::lumels_per_rank(std::size_t lumels, std::size_t ranks)
+{
+    const std::size_t blocks = (lumels + kLinkBlock - 1) / kLinkBlock;
+    return std::min((blocks + ranks - 1) / ranks * kLinkBlock, lumels);
+}
+
+/// Further rays per lumel and solution that fit in memory, of all ranks.
 double LinkRadiosity::rays_that_fit() const
 {
     if (most_bytes_ == 0)
@@ -118,11 +125,14 @@ double LinkRadiosity::rays_that_fit() const
     double taken = 0.0;
     for (const std::optional<LinkTable>& links : links_)
         taken += double(links->bytes());
-    const auto lumels = double(work_.order.size());
+    if (work_.ranks)
+        taken = std::ranges::max(work_.ranks->all(taken));
+    const auto all = double(work_.order.size()),
+               lumels = double(lumels_per_rank(work_.order.size(), count_of(work_.ranks)));
     const double of_ray = state_.shots > 0
                               ? taken / double(state_.shots) + lumels * kProbabilityBytes
                               : lumels * kLinkBytes;
-    const double rows = lumels * (kSolutions * kRowBytes + kGuideBytes);
+    const double rows = lumels * kSolutions * kRowBytes + all * kGuideBytes;
     return std::max(double(most_bytes_) - taken - rows, 0.0) / (kSolutions * of_ray);
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/core/luminance.h"
 #include "links/direct/deviation.h"
+#include "links/kept/link_rows.h"
 #include "links/trace/links.h"
 
 namespace lumel {
@@ -60,13 +61,21 @@ std::vector<double> LinkRadiosity::gain_of_guide(const std::vector<double>& sent
     std::vector<double> gain(sent.size(), 1.0);
     if (guide_.empty())
         return gain;
-    for (std::size_t o = 0; o < gain.size(); ++o) {
-        const std::uint32_t i = work_.order[o];
-        const double first = double(links_[0]->rounds.front()[o / kLinkBlock].rays[o % kLinkBlock]);
-        const double even = std::min(first / std::max(sent[i], 1.0), 1.0);
-        gain[i] =
-            even * std::min(double(guide_.tables[guide_.group[i]].gain), kMostGain) + 1.0 - even;
-    }
+    const auto visit = [&](std::size_t b) {
+        const std::vector<std::uint16_t>& first = links_[0]->rounds.front()[b].rays;
+        for (std::size_t n = 0; n < first.size(); ++n) {
+            const std::uint32_t i = lumels_of(work_, b)[n];
+            const double even = std::min(double(first[n]) / std::max(sent[i], 1.0), 1.0);
+            gain[i] = even * std::min(double(guide_.tables[guide_.group[i]].gain), kMostGain) +
+                      1.0 - even;
+        }
+    };
+    parallel_for_own(work_.ranks, 0, tracer_->blocks(), kRowBlocksPerTask,
+                     [&](std::size_t from, std::size_t to) {
+                         for (std::size_t b = from; b < to; ++b)
+                             visit(b);
+                     });
+    share_rows(work_, [&](auto& archive, std::uint32_t i) { archive(gain[i]); });
     return gain;
 }
 

@@ -1,7 +1,11 @@
 #include "links/trace/sealed_space.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
+#include <span>
+
+#include "links/kept/link_rows.h"
 
 namespace lumel {
 
@@ -21,15 +25,24 @@ std::uint32_t SealedSpace::root(std::uint32_t part)
     return part;
 }
 
+/// Returns false if they were joined already.
+bool SealedSpace::unite(std::uint32_t part, std::uint32_t other)
+{
+    const std::uint32_t a = root(part), b = root(other);
+    above_[std::max(a, b)] = std::min(a, b);
+    return a != b;
+}
+
 /// What sees another is seen by it: a link joins both ways.
 void SealedSpace::join_row(std::uint32_t lumel, const LinkRow& row)
 {
     const auto join_end = [&](std::size_t k, LinkEnd end) {
         if (!numbers_.is_part(end.number()))
             return;
-        const std::uint32_t from = root(parts_.first(lumel) + row.leaves(parts_, lumel, k));
-        const std::uint32_t to = root(numbers_.part(end.number()));
-        above_[std::max(from, to)] = std::min(from, to);
+        const Pair pair{parts_.first(lumel) + row.leaves(parts_, lumel, k),
+                        numbers_.part(end.number())};
+        if (unite(pair.part, pair.other))
+            joined_.push_back(pair);
     };
     for (std::size_t k = 0; k < row.ends.size(); ++k)
         join_end(k, row.ends[k]);
@@ -40,15 +53,26 @@ void SealedSpace::join_row(std::uint32_t lumel, const LinkRow& row)
 void SealedSpace::join(const LinkTable& links, std::size_t table)
 {
     rounds_.resize(std::max(rounds_.size(), table + 1), 0);
+    joined_.clear();
     for (std::size_t& r = rounds_[table]; r < links.rounds.size(); ++r)
-        for (std::size_t b = 0; b < links.rounds[r].size(); ++b) {
-            LinkRows rows(links.rounds[r][b]);
-            const std::size_t end = std::min((b + 1) * kLinkBlock, work_.order.size());
-            for (std::size_t o = b * kLinkBlock; o < end; ++o) {
-                const std::uint32_t i = work_.order[o];
-                join_row(i, rows.next(parts_.has_hidden(i)));
-            }
-        }
+        for (std::size_t b = 0; b < links.rounds[r].size(); ++b)
+            if (is_own(work_.ranks, b))
+                visit_rows(work_, parts_, links.rounds[r][b], b,
+                           [&](const LinkRow& row, std::uint32_t i) { join_row(i, row); });
+    share_joined();
+}
+
+/// Joins what the other ranks have joined.
+void SealedSpace::share_joined()
+{
+    if (count_of(work_.ranks) == 1)
+        return;
+    const Ranks::Gathered all = work_.ranks->all_gather(std::as_bytes(std::span(joined_)));
+    for (std::size_t at = 0; at < all.bytes.size(); at += sizeof(Pair)) {
+        Pair pair;
+        std::memcpy(&pair, &all.bytes[at], sizeof pair);
+        unite(pair.part, pair.other);
+    }
 }
 
 std::vector<char> SealedSpace::sealed(const std::vector<char>& lit)

@@ -25,14 +25,20 @@ public:
     std::vector<char> sealed(const std::vector<char>& lit);
 
 private:
+    struct Pair {
+        std::uint32_t part, other;
+    };
     std::uint32_t root(std::uint32_t part);
+    bool unite(std::uint32_t part, std::uint32_t other);
     void join_row(std::uint32_t lumel, const LinkRow& row);
+    void share_joined();
 
     const LinkWork& work_;
     const SubLumels& parts_;
     const LinkNumbers& numbers_;
     std::vector<std::uint32_t> above_;  ///< [P] union-find
     std::vector<std::size_t> rounds_;   ///< [tables] seen
+    std::vector<Pair> joined_;          ///< by this rank, in the present join()
 };
 
 }  // namespace lumel

@@ -162,5 +162,16 @@ TEST(Ranks, ShareBlocksFromAnyOnesToAnyOnes)
         });
 }
 
+TEST(Ranks, AddUpWhatAllHave)
+{
+    run_ranks(3, [](Ranks& ranks) {
+        const auto own = std::int64_t(ranks.rank());
+        std::vector<std::int64_t> sums = {1, own, -own, std::int64_t(1) << 40};
+        add_up(&ranks, sums);
+        EXPECT_EQ(sums, (std::vector<std::int64_t>{3, 3, -3, std::int64_t(3) << 40}));
+        ranks.finish(0);
+    });
+}
+
 }  // namespace
 }  // namespace lumel

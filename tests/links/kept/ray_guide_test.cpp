@@ -140,7 +140,7 @@ TEST(RayGuide, UnevenRaysBringTheSameLight)
         LinkTable links(parts.count());
         links.rounds.emplace_back(tracer.blocks());
         tracer.trace(0, tracer.blocks(), {each, kLinkStream, nullptr, by}, links);
-        EXPECT_TRUE(links.fits(work.order, parts, numbers, tracer.blocks(), 0));
+        EXPECT_TRUE(links.fits(work, parts, numbers, tracer.blocks(), 0));
         const SourceTerm source = find_source_term(
             work, parts, numbers, ReflectedLight(work, parts, numbers, direct), links);
         glm::dvec3 sum(0.0);
