@@ -174,11 +174,34 @@ FilterChart ChartFilter::chart_at(const ChartPlace& place) const
 /// Gives each rank what the others have found on their charts.
 void ChartFilter::share(Mean& mean) const
 {
-    share_blocks(work_.ranks, 0, places_.size(), [&](auto& archive, std::size_t n) {
+    struct OfLumel {
+        glm::vec3 light;
+        float noise, wrong;
+        glm::vec2 apart;
+        glm::vec3 bend;
+    };
+    const auto write = [&](StateWriter& writer, std::size_t n) {
+        std::vector<OfLumel> all;
         visit_lumels(places_[n], [&](std::uint32_t i, int, int) {
-            archive(mean.light[i], mean.noise[i], mean.wrong[i], mean.apart[i], mean.bend[i]);
+            all.push_back(
+                {mean.light[i], mean.noise[i], mean.wrong[i], mean.apart[i], mean.bend[i]});
         });
-    });
+        writer(all);
+    };
+    const auto read = [&](StateReader& reader, std::size_t n) {
+        std::vector<OfLumel> all;
+        reader(all);
+        auto next = all.begin();
+        visit_lumels(places_[n], [&](std::uint32_t i, int, int) {
+            mean.light[i] = next->light;
+            mean.noise[i] = next->noise;
+            mean.wrong[i] = next->wrong;
+            mean.apart[i] = next->apart;
+            mean.bend[i] = next->bend;
+            ++next;
+        });
+    };
+    share_blocks(work_.ranks, 0, places_.size(), {.write = write, .read = read});
 }
 
 /// Calls visit(chart, filtered estimates) for each chart of this rank, in parallel.

@@ -183,26 +183,31 @@ std::vector<double> LinkRadiosity::rays_by_deviation(double mean, const std::vec
     std::vector<double> rays(sent.size(), 0.0);
     if (!(mean > 0.0))
         return rays;
-    double lit = 0.0, widest = 0.0;
+    struct OfLumel {
+        double deviation, sent;
+
+        double added(double scale) const { return std::max(scale * deviation - sent, 0.0); }
+    };
+    std::vector<OfLumel> lit;  // read some forty times
+    double widest = 0.0;
     for (std::size_t i = 0; i < deviation.size(); ++i)
         if (!work_.is_buried(i)) {
-            lit += 1.0;
+            lit.push_back({deviation[i], sent[i]});
             widest = std::max(widest, deviation[i]);
         }
     if (!(widest > 0.0))
         return std::vector<double>(sent.size(), mean);
-    const auto added = [&](std::size_t i, double scale) {
-        return work_.is_buried(i) ? 0.0 : std::max(scale * deviation[i] - sent[i], 0.0);
-    };
     const double scale =
-        scale_for((1.0 - kEvenShare) * mean * lit, 1.0 / widest, [&](double tried) {
+        scale_for((1.0 - kEvenShare) * mean * double(lit.size()), 1.0 / widest, [&](double tried) {
             double sum = 0.0;
-            for (std::size_t i = 0; i < deviation.size(); ++i)
-                sum += added(i, tried);
+            for (const OfLumel& one : lit)
+                sum += one.added(tried);
             return sum;
         });
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        rays[i] = kEvenShare * mean + guided_rays(sent[i], sent[i] + added(i, scale), gain[i]);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const double added = work_.is_buried(i) ? 0.0 : OfLumel{deviation[i], sent[i]}.added(scale);
+        rays[i] = kEvenShare * mean + guided_rays(sent[i], sent[i] + added, gain[i]);
+    }
     return rays;
 }
 
