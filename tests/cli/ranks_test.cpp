@@ -118,6 +118,22 @@ TEST_F(Ranks, KeepTheLightSoFarWhenStopped)
     EXPECT_TRUE(report["solution"]["interrupted"]);
 }
 
+TEST_F(Ranks, ContinueWhatAnotherNumberOfThemHasBegun)
+{
+    const Words more = {"--error", "0.5"};
+    const Words alone = bake_of(cornell, place.path("alone"), more);
+    ASSERT_EQ(run_program(alone[0], {alone.begin() + 1, alone.end()}).code, 0);
+    const Words bake = bake_of(cornell, out, joined(more, {"--resume", "--verbose"}));
+    const Outcome stopped =
+        run_ranks({bake, bake}, {.interrupt_at = "estimated error", .signal = SIGUSR1});
+    EXPECT_EQ(stopped.code, 128 + SIGUSR1) << stopped.err;
+    EXPECT_TRUE(fs::exists(out + "/.lumel-checkpoint"));
+    const Outcome continued = run_ranks({bake, bake, bake});
+    EXPECT_EQ(continued.code, 0) << continued.err;
+    expect_words(continued.err, {"continuing after"});
+    EXPECT_TRUE(bytes_of(out + "/lightmap.exr") == bytes_of(place.path("alone/lightmap.exr")));
+}
+
 TEST_F(Ranks, NeedTheModule)
 {
     fs::create_directories(place.path("bin"));

@@ -8,6 +8,7 @@
 #include "../support/thread_ranks.h"
 #include "atlas/near/buried.h"
 #include "base/core/state_bytes.h"
+#include "jobs/solve/host_memory.h"
 #include "links/trace/links.h"
 #include "solved.h"
 
@@ -109,6 +110,20 @@ TEST_F(RanksOfLinks, GiveTheFirstTheLinksOfAll)
         }
         ranks.finish(0);
     });
+}
+
+TEST_F(RanksOfLinks, PlanMemoryForTheirPartOfLinks)
+{
+    const BakeOptions alone{.solver = {.method = LinksOptions{}}};
+    BakeOptions shared = alone;
+    shared.ranks = 2;
+    const HostMemory whole = host_memory(world, alone, false),
+                     half = host_memory(world, shared, false);
+    // All but the last block are full.
+    EXPECT_NEAR(double(half.links) / double(whole.links), 0.5, 0.1);
+    EXPECT_EQ(half.without_links(), whole.without_links());
+    shared.keep_links = true;  // the first rank has all in the end
+    EXPECT_EQ(host_memory(world, shared, false).links, whole.links);
 }
 
 TEST_F(RanksOfLinks, FindTheSameVisibleNoise)
