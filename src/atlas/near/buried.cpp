@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -71,8 +72,8 @@ public:
             find_shut_in(points, hidden);
     }
 
-    /// Tests whether some of these points meet a back nearby, each along a direction of its own:
-    /// all of a lumel's points may be open by the first, to a far front.
+    /// Looks whether some of these points of a lumel are shut in beside backs nearby: all of its
+    /// points may be open by the first direction, to a far front.
     void look_for_backs(std::span<const LumelPoint> points)
     {
         rays_.clear();
@@ -82,9 +83,15 @@ public:
         }
         hits_.resize(rays_.size());
         look_.rays.closest(rays_, hits_);
-        is_near_back_ = is_near_back_ || std::ranges::any_of(hits_, [&](const RayHit& hit) {
-                            return !std::isinf(hit.distance) && is_back(hit);
-                        });
+        if (std::ranges::none_of(hits_, [&](const RayHit& hit) {
+                return !std::isinf(hit.distance) && is_back(hit);
+            }))
+            return;
+        std::array<bool, kCornersOfPiece> hidden{};
+        in_doubt_.resize(points.size());
+        std::iota(in_doubt_.begin(), in_doubt_.end(), 0u);
+        find_shut_in(points, std::span(hidden).first(points.size()));
+        is_near_back_ = std::ranges::count(hidden, true) > 0;
     }
 
     /// Directions by which points were first found open.
@@ -125,19 +132,31 @@ private:
     void find_shut_in(std::span<const LumelPoint> points, std::span<bool> hidden)
     {
         left_.swap(in_doubt_);
-        std::vector<int> fronts(points.size(), 0);
+        std::vector<Directions> fronts(points.size(), 0);
         for (std::uint32_t direction = 0; direction < kDirections && !left_.empty(); ++direction) {
             cast(points, direction);
-            for (std::size_t r = 0; r < left_.size(); ++r) {
-                int& count = fronts[left_[r]];
-                if (is_open(points[left_[r]].normal, rays_[r], hits_[r]) &&
-                    (++count > kFewFronts || !ends_at_back(direction, rays_[r], hits_[r])))
-                    count = kFewFronts + 1;
-            }
-            std::erase_if(left_, [&](std::uint32_t p) { return fronts[p] > kFewFronts; });
+            for (std::size_t r = 0; r < left_.size(); ++r)
+                if (is_open(points[left_[r]].normal, rays_[r], hits_[r]))
+                    fronts[left_[r]] |= 1u << direction;
+            std::erase_if(left_,
+                          [&](std::uint32_t p) { return std::popcount(fronts[p]) > kFewFronts; });
         }
         for (const std::uint32_t p : left_)
-            hidden[p] = true;
+            hidden[p] = end_at_backs(points[p], fronts[p]);
+    }
+
+    /// True if walks along all of these directions end at backs.
+    bool end_at_backs(const LumelPoint& point, Directions fronts)
+    {
+        for (std::uint32_t direction = 0; direction < kDirections; ++direction) {
+            if ((fronts >> direction & 1u) == 0)
+                continue;
+            const RaySpan ray = ray_from(point, direction_about(point.normal, sample(direction)));
+            RayHit hit;
+            if (!look_.rays.closest(ray, hit) || !ends_at_back(direction, ray, hit))
+                return false;
+        }
+        return true;
     }
 
     /// Casts rays from the points left_.
@@ -182,8 +201,6 @@ private:
     bool ends_at_back(std::uint32_t direction, RaySpan ray, RayHit hit) const
     {
         for (std::uint32_t n = 0; n < kMostReflections; ++n) {
-            if (std::isinf(hit.distance))
-                return false;
             const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
             const glm::vec3 from =
                 ray.origin + hit.distance * ray.direction + hit.ray_offset * normal;
