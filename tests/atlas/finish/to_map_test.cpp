@@ -46,15 +46,24 @@ TEST(ToMap, ValidBlackDiffersFromNotCoveredEvenIn8Bits)
 TEST(ToMap, ADoubleSidedChartShowsItsBrighterSideAsAWhole)
 {
     const Lumels lumels = with_backs(grid({"aabb"}));
-    // Chart a: front 3 + 1, back 2 + 4; chart b: front 5 + 5, back 9 + 0.
+    // Chart a: front 3 + 1, back 2 + 4; chart b: front 5 + 5, back 6 + 0.
     std::vector<glm::vec3> values;
-    for (const float value : {3.0f, 1.0f, 5.0f, 5.0f, 2.0f, 4.0f, 9.0f, 0.0f})
+    for (const float value : {3.0f, 1.0f, 5.0f, 5.0f, 2.0f, 4.0f, 6.0f, 0.0f})
         values.emplace_back(value);
     const Image map = to_map(lumels, values);
     EXPECT_EQ(map.at(0, 0)[0], 2.0f);
     EXPECT_EQ(map.at(1, 0)[0], 4.0f);
     EXPECT_EQ(map.at(2, 0)[0], 5.0f);
     EXPECT_EQ(map.at(3, 0)[0], 5.0f);
+}
+
+TEST(ToMap, AFrontLitAtItsRimShowsBeforeFaintLightInside)
+{
+    const Lumels lumels = with_backs(grid({"aaaa"}));
+    std::vector<glm::vec3> values;
+    for (const float value : {9.0f, 0.0f, 0.0f, 0.0f, 3.0f, 3.0f, 3.0f, 3.0f})
+        values.emplace_back(value);
+    EXPECT_EQ(to_map(lumels, values).at(0, 0)[0], 9.0f);
 }
 
 TEST(ToMap, EqualSidesShowTheFront)
