@@ -93,9 +93,13 @@ std::size_t different_links(const StoredLinks& one, const StoredLinks& other)
 {
     std::size_t count = 0;
     for (std::size_t r = 0; r < one.rounds.size(); ++r)
-        for (std::size_t k = 0; k < kSolutions; ++k)
-            for (std::size_t n = 0; n < one.rounds[r].ends[k].size(); ++n)
-                count += one.rounds[r].ends[k][n] != other.rounds[r].ends[k][n] ? 1 : 0;
+        for (std::size_t k = 0; k < kSolutions; ++k) {
+            const std::vector<LinkEnd>&a = one.rounds[r].ends[k], &b = other.rounds[r].ends[k];
+            const auto [least, most] = std::minmax({a.size(), b.size()});
+            count += most - least;  // by lumels that are buried in one of both
+            for (std::size_t n = 0; n < least; ++n)
+                count += a[n] != b[n] ? 1 : 0;
+        }
     return count;
 }
 
