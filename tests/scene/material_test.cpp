@@ -133,6 +133,16 @@ TEST(Materials, ReflectAtMostTheMaximumInTheHueOfTheFile)
     EXPECT_EQ(glm::vec3(scene.materials[0].base_color), color);
 }
 
+TEST(Materials, OfClearGlassAreNotTooBright)
+{
+    Scene scene = with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}},
+                                 {"extensions",
+                                  {{"KHR_materials_transmission", {{"transmissionFactor", 0.9}}}}}})
+                      .read();
+    cap_albedo(scene, 0.95f);
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{});
+}
+
 TEST(Materials, OfGlossReflectAtMostTheMaximumInAll)
 {
     for (const float metallic : {0.0f, 0.3f, 1.0f}) {

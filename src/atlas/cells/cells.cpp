@@ -236,6 +236,8 @@ SeenCells::SeenCells(const WorldLumels& world, const Cells& cells, const RayScen
       ray_offset_(std::max(kAboveCell * world[i].size, ray_offset_for(world[i].reach))),
       seed_(seed)
 {
+    if (flat_)
+        return;
     for (auto facet = world.begin(world[i]); facet != world.end(world[i]); ++facet)
         for (int k = 0; k < facet->count; ++k)
             top_ = std::max(top_, glm::dot(facet->corner[k], up_));

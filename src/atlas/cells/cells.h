@@ -100,7 +100,7 @@ private:
     CellPoints points_;
     bool flat_;
     glm::vec3 up_;      ///< unit
-    float top_;         ///< height along it above which the lumel itself is not [m]
+    float top_;         ///< height along it above the whole lumel, unless it is flat [m]
     float ray_offset_;  ///< [m]
     std::uint32_t seed_;
 };

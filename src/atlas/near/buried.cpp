@@ -142,20 +142,15 @@ private:
                           [&](std::uint32_t p) { return std::popcount(fronts[p]) > kFewFronts; });
         }
         for (const std::uint32_t p : left_)
-            hidden[p] = end_at_backs(points[p], fronts[p]);
+            hidden[p] = all_end_at_backs(points[p], fronts[p]);
     }
 
     /// True if walks along all of these directions end at backs.
-    bool end_at_backs(const LumelPoint& point, Directions fronts)
+    bool all_end_at_backs(const LumelPoint& point, Directions fronts) const
     {
-        for (std::uint32_t direction = 0; direction < kDirections; ++direction) {
-            if ((fronts >> direction & 1u) == 0)
-                continue;
-            const RaySpan ray = ray_from(point, direction_about(point.normal, sample(direction)));
-            RayHit hit;
-            if (!look_.rays.closest(ray, hit) || !ends_at_back(direction, ray, hit))
+        for (std::uint32_t direction = 0; direction < kDirections; ++direction)
+            if ((fronts >> direction & 1u) != 0 && !ends_at_back(point, direction))
                 return false;
-        }
         return true;
     }
 
@@ -197,19 +192,22 @@ private:
 
     float nearby() const { return kFar * look_.world[lumel_].size; }  ///< [m]
 
-    /// True if a walk of diffuse reflections from a hit ends at the back of a surface.
-    bool ends_at_back(std::uint32_t direction, RaySpan ray, RayHit hit) const
+    /// True if a walk of diffuse reflections that begins along a direction ends at the back of a
+    /// surface.
+    bool ends_at_back(const LumelPoint& point, std::uint32_t direction) const
     {
-        for (std::uint32_t n = 0; n < kMostReflections; ++n) {
+        RaySpan ray = ray_from(point, direction_about(point.normal, sample(direction)));
+        for (std::uint32_t n = 0; n <= kMostReflections; ++n) {
+            RayHit hit;
+            if (!look_.rays.closest(ray, hit))
+                return false;
+            if (is_back(hit))
+                return true;
             const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
             const glm::vec3 from =
                 ray.origin + hit.distance * ray.direction + hit.ray_offset * normal;
             const glm::vec2 st = sobol_pair(direction, hash_two(std::uint32_t(lumel_), 2 + n));
             ray = ray_out(from, direction_about(normal, st), kBlendSeed);
-            if (!look_.rays.closest(ray, hit))
-                return false;
-            if (is_back(hit))
-                return true;
         }
         return false;
     }

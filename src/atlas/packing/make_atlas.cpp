@@ -501,7 +501,7 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested,
     atlas.shows_front = options.sides == Sides::front;
     for (const std::string& pattern : unmatched(scene, options.densities))
         atlas.notes.push_back(fmt::format(
-            "no object, mesh or material is named '{}': its density is of no use", pattern));
+            "no object, mesh or material is named '{}': its density is ignored", pattern));
     return atlas;
 }
 

@@ -78,6 +78,29 @@ WorldTriangle world_triangle(const Scene& scene, const TriangleOf& at)
     return triangle;
 }
 
+/// Triangles, each chosen with a probability in proportion to its area.
+class TrianglesByArea {
+public:
+    void add(const WorldTriangle& triangle)
+    {
+        triangles_.push_back(triangle);
+        sums_.push_back(area() + 0.5 * double(glm::length(triangle.normal())));
+    }
+
+    double area() const { return sums_.empty() ? 0.0 : sums_.back(); }  ///< [m²]
+
+    /// at: 0…1. Requires that there is one.
+    const WorldTriangle& at(double at) const
+    {
+        const auto found = std::lower_bound(sums_.begin(), sums_.end(), at * area());
+        return triangles_[std::min(std::size_t(found - sums_.begin()), sums_.size() - 1)];
+    }
+
+private:
+    std::vector<WorldTriangle> triangles_;
+    std::vector<double> sums_;  ///< running sums of their areas [m²]
+};
+
 /// Position of a walk.
 struct Place {
     glm::vec3 position;  ///< [m]
@@ -89,28 +112,22 @@ class ChartSides {
 public:
     ChartSides(const Scene& scene, const std::vector<TriangleOf>& chart)
     {
-        double sum = 0.0;
         for (const TriangleOf& at : chart) {
             if (!is_double_sided(scene, at))
                 continue;
-            triangles_.push_back(world_triangle(scene, at));
-            sum += 0.5 * double(glm::length(triangles_.back().normal()));
-            sums_.push_back(sum);
+            triangles_.add(world_triangle(scene, at));
             glows_ |= material_of(scene, at).emitted != glm::vec3(0.0f);
         }
     }
 
     bool glows() const { return glows_; }
 
-    double area() const { return sums_.empty() ? 0.0 : sums_.back(); }  ///< [m²]
+    double area() const { return triangles_.area(); }  ///< [m²]
 
     /// Start of walk `index` of `count`, offset from the side.
     Place start(bool back, std::uint32_t index, std::uint32_t count) const
     {
-        const double at = (double(index) + 0.5) / double(count) * area();
-        const auto found = std::lower_bound(sums_.begin(), sums_.end(), at);
-        const WorldTriangle& triangle =
-            triangles_[std::min(std::size_t(found - sums_.begin()), sums_.size() - 1)];
+        const WorldTriangle& triangle = triangles_.at((double(index) + 0.5) / double(count));
         const auto& [a, b, c] = triangle.corner;
         const glm::vec3 point = triangle.point(sequence_point(index, back ? 1u : 0u));
         const glm::vec3 normal = glm::normalize((back ? -1.0f : 1.0f) * triangle.normal());
@@ -120,8 +137,7 @@ public:
     }
 
 private:
-    std::vector<WorldTriangle> triangles_;
-    std::vector<double> sums_;  ///< running sums over triangles [m²]
+    TrianglesByArea triangles_;
     bool glows_ = false;
 };
 
@@ -149,31 +165,23 @@ class EmissiveTriangles {
 public:
     explicit EmissiveTriangles(const Scene& scene)
     {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
             const std::vector<Primitive>& primitives =
                 scene.meshes[std::size_t(scene.instances[i].mesh)].primitives;
             for (std::uint32_t p = 0; p < primitives.size(); ++p)
-                for (std::uint32_t t = 0; t < primitives[p].indices.size() / 3; ++t) {
-                    const TriangleOf at{std::uint32_t(i), p, t};
-                    if (material_of(scene, at).emitted == glm::vec3(0.0f))
-                        break;
-                    triangles_.push_back(world_triangle(scene, at));
-                    sum += double(glm::length(triangles_.back().normal()));
-                    sums_.push_back(sum);
-                }
+                if (material_of(scene, {i, p, 0}).emitted != glm::vec3(0.0f))
+                    for (std::uint32_t t = 0; t < primitives[p].indices.size() / 3; ++t)
+                        triangles_.add(world_triangle(scene, {i, p, t}));
         }
     }
 
     /// True if light of one of them, chosen by `seed` and area, reaches the position.
     bool light(const RayScene& rays, const Place& at, std::uint32_t seed) const
     {
-        if (triangles_.empty() || sums_.back() == 0.0)
+        if (triangles_.area() == 0.0)
             return false;
-        const double chosen = double(unit_float(mixed_bits(seed ^ kEmitterSeed))) * sums_.back();
-        const auto found = std::upper_bound(sums_.begin(), sums_.end(), chosen);
         const WorldTriangle& triangle =
-            triangles_[std::min(std::size_t(found - sums_.begin()), sums_.size() - 1)];
+            triangles_.at(double(unit_float(mixed_bits(seed ^ kEmitterSeed))));
         const glm::vec3 point =
             triangle.point({unit_float(mixed_bits(seed + 1)), unit_float(mixed_bits(~(seed + 1)))});
         const glm::vec3 away = at.position - point;
@@ -185,8 +193,7 @@ public:
     }
 
 private:
-    std::vector<WorldTriangle> triangles_;
-    std::vector<double> sums_;  ///< running sums of their areas, doubled [m²]
+    TrianglesByArea triangles_;
 };
 
 /// Follows a walk to its end. Returns true if it finds light.

@@ -137,13 +137,13 @@ private:
     std::uint64_t next_ = 0;
 };
 
-/// What is to follow a step.
+/// What a rank wants to do after a step.
 struct Wish {
     double seconds;  ///< of solving so far
     bool wants_more, wants_checkpoint;
 };
 
-/// That of all ranks: the first one has the clock, each can stop them.
+/// The decision of all ranks. Time is that of rank 0; any rank can stop all.
 Wish of_all(Ranks* ranks, const Wish& own)
 {
     if (!ranks)

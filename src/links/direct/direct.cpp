@@ -248,13 +248,14 @@ void DirectEstimator::take(const Group& group, std::uint32_t i, const RayBatch& 
         SourceEstimate sums;
         const std::uint32_t first = group.first + h * group.rays;
         for (std::uint32_t look = first; look < first + group.rays; ++look) {
-            const auto add_to = [&](std::initializer_list<SourceEstimate*> estimates) {
-                for (SourceEstimate* into : estimates)
-                    into->add(wave.looks.sample(look), wave.looks.transmittance(look));
-            };
-            add_to({&sums, &of_both});
-            if (const std::uint32_t cell = wave.cells[look]; cell != kNoCell)
-                add_to({&of_cells[cell], &of_parts[part(cell)]});
+            const SourceSample& sample = wave.looks.sample(look);
+            const glm::vec3 transmittance = wave.looks.transmittance(look);
+            sums.add(sample, transmittance);
+            of_both.add(sample, transmittance);
+            if (const std::uint32_t cell = wave.cells[look]; cell != kNoCell) {
+                of_cells[cell].add(sample, transmittance);
+                of_parts[part(cell)].add(sample, transmittance);
+            }
         }
         light.half[h] = sums.light();
     }

@@ -27,12 +27,12 @@ bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const S
 {
     if (block.rays.size() != lumels.size())
         return false;
-    std::size_t slots = 0, of_cut = 0;
+    std::size_t slots = 0, with_cell = 0;
     for (std::size_t n = 0; n < lumels.size(); ++n) {
         slots += block.rays[n];
-        of_cut += parts.has_hidden(lumels[n]) ? block.rays[n] : 0;
+        with_cell += parts.has_hidden(lumels[n]) ? block.rays[n] : 0;
     }
-    if (block.ends.size() != slots || block.from.size() != of_cut)
+    if (block.ends.size() != slots || block.from.size() != with_cell)
         return false;
     const auto is_known = [&](LinkEnd end) { return end.number() < numbers.count(); };
     std::size_t next_slot = 0, near = 0;

@@ -266,13 +266,16 @@ void LinkRadiosity::add_rays_of_charts(const std::vector<double>& sent,
 void LinkRadiosity::share_out_rays(double most)
 {
     const std::vector<double> sent = rays_so_far();
-    const std::vector<double> gain = gain_of_guide(sent);
-    const std::vector<double> deviation = deviation_of_ray(sent, weights());
-    std::vector<double> rays =
-        rays_by_deviation(std::min(more_rays(), most), sent, deviation, gain);
-    add_rays_of_charts(sent, gain, rays);
-    if (round_ == 1 && std::ranges::any_of(rays, [](double more) { return more > 0.0; }))
-        add_rays_of_noisy(sent, deviation, gain, rays);
+    std::vector<double> rays(sent.size(), 0.0);
+    const double mean = std::min(more_rays(), most);
+    if (mean > 0.0 || !noisy_charts().empty()) {
+        const std::vector<double> gain = gain_of_guide(sent);
+        const std::vector<double> deviation = deviation_of_ray(sent, weights());
+        rays = rays_by_deviation(mean, sent, deviation, gain);
+        add_rays_of_charts(sent, gain, rays);
+        if (round_ == 1 && std::ranges::any_of(rays, [](double more) { return more > 0.0; }))
+            add_rays_of_noisy(sent, deviation, gain, rays);
+    }
     double sum = 0.0, lit = 0.0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         sum += rays[i];
