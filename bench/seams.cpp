@@ -39,7 +39,7 @@ std::vector<glm::vec3> light_of(const SolveScene& prepared, const gpu::Device& d
 Image with_seams(const Lumels& lumels, const std::vector<glm::vec3>& light)
 {
     Image map = to_map(lumels, light);
-    fill_buried(map, lumels);
+    fill_buried(map, lumels, shown_lumels(lumels, light));
     dilate(map);
     return map;
 }

@@ -35,7 +35,7 @@ TEST_P(Seams, AreSmallerOnceTheyAreMatched)
     const support::Solved solved =
         support::solve_scene(world, {.method = LinksOptions{}, .target_error = 0.03});
     Image before = to_map(world.lumels, solved.irradiance);
-    fill_buried(before, world.lumels);
+    fill_buried(before, world.lumels, shown_lumels(world.lumels, solved.irradiance));
     dilate(before);
     Image after = before;
     match_seams(after, world.scene, world.atlas, world.lumels);

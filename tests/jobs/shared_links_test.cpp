@@ -150,9 +150,9 @@ TEST(RanksOfLumels, BuryTheSame)
             return make_atlas(scene, {.size = 96});
         };
         return SolveScene(read_gltf(support::scene_path("room")), lay_out,
-                          [&](const Scene& scene, const RayScene& rays, Lumels& lumels,
-                              const ProgressCallback& progress) {
-                              return mark_buried(scene, rays, lumels, {}, progress, ranks);
+                          [&](const Scene& scene, const RayScene& rays, const Atlas& atlas,
+                              Lumels& lumels, const ProgressCallback& progress) {
+                              return mark_buried(scene, rays, atlas, lumels, {}, progress, ranks);
                           });
     };
     const auto shares = [](const Lumels& lumels) {

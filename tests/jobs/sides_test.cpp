@@ -1,5 +1,8 @@
 // Light on both sides of surfaces without thickness, and where the map has it.
 
+#include <algorithm>
+#include <vector>
+
 #include "../support/temporary_folder.h"
 #include "atlas/finish/finish.h"
 #include "atlas/lumels/sides.h"
@@ -129,6 +132,88 @@ TEST(Sides, AreLitByASmallEmissiveBulb)
     const std::vector<char> roof_and_sunny_wall = {1, 0, 0, 1, 0, 0};
     const SolveScene house(scene, AtlasOptions{.size = 96});
     EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), roof_and_sunny_wall);
+}
+
+struct Slab {
+    glm::vec3 low, high;  ///< [m]
+
+    /// Distance from its surface [m], negative inside.
+    float distance(const glm::vec3& point) const
+    {
+        const glm::vec3 outside = glm::max(low - point, point - high);
+        return std::max({outside.x, outside.y, outside.z});
+    }
+};
+
+/// Floor, ceiling and walls of a room, which run into each other, as modellers leave them.
+std::vector<Slab> slabs_of_room()
+{
+    constexpr float kThick = 0.3f, kOver[] = {0.0f, 0.17f, 0.11f};  // [m]
+    const glm::vec3 room(4.0f, 3.0f, 5.0f);
+    std::vector<Slab> slabs;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const bool above : {false, true}) {
+            Slab slab{glm::vec3(-kThick), room + kThick};
+            (above ? slab.low : slab.high)[axis] = above ? room[axis] : 0.0f;
+            for (int next = 1; next < 3; ++next) {
+                slab.low[(axis + next) % 3] -= kOver[next];
+                slab.high[(axis + next) % 3] += kOver[next];
+            }
+            slabs.push_back(slab);
+        }
+    return slabs;
+}
+
+/// 6 instances per slab, and a bulb inside.
+Scene room_of_slabs(bool double_sided, float bulb)
+{
+    Scene scene;
+    for (const Slab& slab : slabs_of_room())
+        for (const support::Quad& wall : support::box_walls(slab.low, slab.high, false))
+            support::add_quad(scene, {.corner = wall.corner,
+                                      .edge_u = wall.edge_u,
+                                      .edge_v = wall.edge_v,
+                                      .double_sided = double_sided});
+    scene.lights.push_back(
+        support::make_lamp(PunctualLight::Kind::point, bulb, {2.0f, 2.0f, 2.0f}, {0, -1, 0}));
+    return scene;
+}
+
+/// Distances of a lumel from the surfaces of the other slabs [m], negative inside; ascending.
+std::vector<float> from_other_slabs(const Lumel& lumel)
+{
+    const std::vector<Slab> slabs = slabs_of_room();
+    std::vector<float> distances;
+    for (std::size_t s = 0; s < slabs.size(); ++s)
+        if (lumel.instance / 6 != s)
+            distances.push_back(slabs[s].distance(lumel.position));
+    std::ranges::sort(distances);
+    return distances;
+}
+
+void expect_hidden_inside_slabs(const SolveScene& room)
+{
+    std::size_t hidden = 0, open = 0;
+    for (std::size_t i = 0; i < room.open.size(); ++i) {
+        const Lumel& lumel = room.lumels.lumels[i];
+        const std::vector<float> distances = from_other_slabs(lumel);
+        const bool inside =
+            is_back(lumel) || (distances[0] < -lumel.size && distances[1] > 4.0f * lumel.size);
+        if (!inside && distances[0] < lumel.size)
+            continue;  // on the surface of a slab, or near where three meet
+        EXPECT_EQ(room.open[i], inside ? 0.0f : 1.0f) << i;
+        ++(inside ? hidden : open);
+    }
+    EXPECT_GT(hidden, 100u);
+    EXPECT_GT(open, 1000u);
+}
+
+TEST(Sides, InsideSolidsHideWhatIsThereAsBacksDo)
+{
+    const AtlasOptions options{.size = 192};
+    expect_hidden_inside_slabs(SolveScene(room_of_slabs(false, kBulb), options));
+    expect_hidden_inside_slabs(SolveScene(room_of_slabs(true, kBulb), options));
+    expect_hidden_inside_slabs(SolveScene(room_of_slabs(true, 0.0f), options));  // switched off
 }
 
 // One mesh with a layout of its own, whose primitives differ.

@@ -14,31 +14,21 @@ namespace {
 
 constexpr std::uint32_t kOutsideCharts = std::numeric_limits<std::uint32_t>::max();
 
-bool is_black(const Image& map, std::size_t texel)
-{
-    const float* rgb = map.values.data() + texel * 4;
-    return rgb[0] == 0.0f && rgb[1] == 0.0f && rgb[2] == 0.0f;
-}
-
 }  // namespace
 
-void fill_buried(Image& map, const Lumels& lumels, std::span<Image> layers)
+void fill_buried(Image& map, const Lumels& lumels, std::span<const std::uint32_t> shown,
+                 std::span<Image> layers)
 {
     const std::size_t count = std::size_t(map.width) * std::size_t(map.height);
     std::vector<std::uint32_t> charts(count, kOutsideCharts);
-    std::vector<std::uint8_t> open(count), buried(count);
-    for (const Lumel& lumel : lumels.lumels) {
-        const std::uint32_t texel = map_texel(lumels, lumel);
-        charts[texel] = map_chart(lumels, lumel);
-        (lumel.flags & kLumelBuried ? buried : open)[texel] = 1;
-    }
-
     std::vector<TexelState> states(count, TexelState::outside);
-    for (std::size_t texel = 0; texel < count; ++texel)
-        if (buried[texel] && (!open[texel] || is_black(map, texel)))
-            states[texel] = TexelState::wanted;
-        else if (open[texel])
-            states[texel] = TexelState::known;
+    for (std::size_t texel = 0; texel < count; ++texel) {
+        if (shown[texel] == kNoLumel)
+            continue;
+        const Lumel& lumel = lumels.lumels[shown[texel]];
+        charts[texel] = map_chart(lumels, lumel);
+        states[texel] = lumel.flags & kLumelBuried ? TexelState::wanted : TexelState::known;
+    }
     for (Image& layer : layers)
         grow(layer, states, charts);
     grow(map, std::move(states), charts);

@@ -59,12 +59,10 @@ FinishedMaps finish_maps(const Scene& scene, const Atlas& atlas, const Lumels& l
                          std::span<const std::vector<glm::vec3>> layers)
 {
     FinishedMaps maps{to_map(lumels, light), {}};
-    if (!layers.empty()) {
-        const std::vector<std::uint32_t> shown = shown_lumels(lumels, light);
-        for (const std::vector<glm::vec3>& values : layers)
-            maps.layers.push_back(layer_map(shown, maps.light, values));
-    }
-    fill_buried(maps.light, lumels, maps.layers);
+    const std::vector<std::uint32_t> shown = shown_lumels(lumels, light);
+    for (const std::vector<glm::vec3>& values : layers)
+        maps.layers.push_back(layer_map(shown, maps.light, values));
+    fill_buried(maps.light, lumels, shown, maps.layers);
     dilate(maps.light);
     for (Image& layer : maps.layers)
         dilate(layer);

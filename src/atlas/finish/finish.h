@@ -49,10 +49,10 @@ std::vector<std::uint32_t> shown_lumels(const Lumels& lumels, std::span<const gl
 Image to_map(const Lumels& lumels, std::span<const glm::vec3> values);
 
 /// Fills buried lumels with the light of their nearest open neighbours in the same chart, so that
-/// filtering neither darkens nor leaks. Wholly buried charts are unchanged. If only one side of a
-/// double-sided surface is buried, its texel counts as buried if it is black. `layers`: further
-/// maps, filled at the same texels.
-void fill_buried(Image& map, const Lumels& lumels, std::span<Image> layers = {});
+/// filtering neither darkens nor leaks. Wholly buried charts are unchanged. shown: by
+/// shown_lumels(). `layers`: further maps, filled at the same texels.
+void fill_buried(Image& map, const Lumels& lumels, std::span<const std::uint32_t> shown,
+                 std::span<Image> layers = {});
 
 /// Fills uncovered texels from their nearest covered ones, so that bilinear and mipmapped sampling
 /// never reads black. Alpha and covered texels are unchanged.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 
+#include "atlas/lumels/sides.h"
 #include "atlas/near/hemisphere.h"
 #include "atlas/near/sequence.h"
 #include "atlas/near/world_lumels.h"
@@ -42,6 +43,38 @@ constexpr float kFar = 16.0f;
 /// Of walks in closed geometry.
 constexpr std::uint32_t kMostReflections = 16;
 
+/// Sides of double-sided charts inside closed solids.
+class InnerSides {
+public:
+    /// The atlas must outlive this.
+    InnerSides(const Scene& scene, const Atlas& atlas)
+        : atlas_(&atlas),
+          first_surface_(scene.instances.size(), 0)
+    {
+        for (std::size_t s = atlas.surfaces.size(); s-- > 0;)
+            first_surface_[atlas.surfaces[s].instance] = s;
+    }
+
+    bool has(const Lumel& lumel) const { return is_inner(lumel.chart, !is_back(lumel)); }
+
+    bool has(const RayHit& hit) const
+    {
+        if (atlas_->inner.empty())
+            return false;
+        const Surface& surface = atlas_->surfaces[first_surface_[hit.instance] + hit.primitive];
+        return is_inner(surface.chart[hit.triangle], hit.front);
+    }
+
+private:
+    bool is_inner(std::uint32_t chart, bool front) const
+    {
+        return chart < atlas_->inner.size() && atlas_->inner[chart][front ? 0 : 1];
+    }
+
+    const Atlas* atlas_;
+    std::vector<std::size_t> first_surface_;  ///< [instances]
+};
+
 /// Bit k: direction k.
 using Directions = std::uint32_t;
 constexpr Directions kAllDirections = (1u << kDirections) - 1;
@@ -51,8 +84,10 @@ constexpr Directions kAllDirections = (1u << kDirections) - 1;
 class HiddenPoints {
 public:
     /// tried: directions of rays. is_near_back: if rays of the lumel are known to hit backs nearby.
-    HiddenPoints(const LumelsInScene& look, std::size_t i, Directions tried, bool is_near_back)
+    HiddenPoints(const LumelsInScene& look, const InnerSides& inner, std::size_t i,
+                 Directions tried, bool is_near_back)
         : look_(look),
+          inner_(inner),
           lumel_(i),
           tried_(tried),
           is_near_back_(is_near_back)
@@ -136,7 +171,9 @@ private:
         for (std::uint32_t direction = 0; direction < kDirections && !left_.empty(); ++direction) {
             cast(points, direction);
             for (std::size_t r = 0; r < left_.size(); ++r)
-                if (is_open(points[left_[r]].normal, rays_[r], hits_[r]))
+                if (std::isinf(hits_[r].distance))
+                    fronts[left_[r]] = kAllDirections;
+                else if (is_open(points[left_[r]].normal, rays_[r], hits_[r]))
                     fronts[left_[r]] |= 1u << direction;
             std::erase_if(left_,
                           [&](std::uint32_t p) { return std::popcount(fronts[p]) > kFewFronts; });
@@ -187,7 +224,7 @@ private:
 
     bool is_back(const RayHit& hit) const
     {
-        return !hit.front && !is_double_sided(look_.scene, hit);
+        return is_double_sided(look_.scene, hit) ? inner_.has(hit) : !hit.front;
     }
 
     float nearby() const { return kFar * look_.world[lumel_].size; }  ///< [m]
@@ -221,6 +258,7 @@ private:
     }
 
     const LumelsInScene& look_;
+    const InnerSides& inner_;
     std::size_t lumel_;
     Directions tried_, successful_ = 0;
     bool is_near_back_;
@@ -241,7 +279,7 @@ struct FirstLook {
 
 /// Tests a few points: near the corners of its pieces, where neighbours begin to cover it, and over
 /// the whole lumel.
-FirstLook first_look(const LumelsInScene& look, std::size_t i)
+FirstLook first_look(const LumelsInScene& look, const InnerSides& inner, std::size_t i)
 {
     constexpr std::size_t kMostPoints = kFirstPoints + kCornersOfPiece * kCornerPieces;
     std::array<LumelPoint, kMostPoints> points;
@@ -257,7 +295,7 @@ FirstLook first_look(const LumelsInScene& look, std::size_t i)
               glm::vec2(piece.parallelogram ? 1.0f - kFromEdges : 0.5f - kFromEdges)})
             points[count++] = point_in(piece, uv.x, uv.y);
     const std::span tested = std::span(hidden).first(count);
-    HiddenPoints are_hidden(look, i, kAllDirections, false);
+    HiddenPoints are_hidden(look, inner, i, kAllDirections, false);
     are_hidden.look_for_backs(std::span(points).subspan(kFirstPoints, kCornersOfPiece));
     are_hidden(std::span(points).first(count), tested);
     const auto hides = std::size_t(std::ranges::count(tested, true));
@@ -480,7 +518,8 @@ struct OpenPart {
 };
 
 /// first: of its points; directions that opened none of them rarely open others.
-OpenPart find_open_part(const LumelsInScene& look, std::size_t i, const FirstLook& first)
+OpenPart find_open_part(const LumelsInScene& look, const InnerSides& inner, std::size_t i,
+                        const FirstLook& first)
 {
     const Lumel& lumel = look.lumels.lumels[i];
     OpenPart part{i, {}, 0.0f};
@@ -492,7 +531,7 @@ OpenPart find_open_part(const LumelsInScene& look, std::size_t i, const FirstLoo
         whole += local_area(look.lumels.pieces[lumel.first_piece + k]);
         strips.emplace_back(look, i, k, side);
     }
-    HiddenPoints are_hidden(look, i, first.successful, first.is_near_back);
+    HiddenPoints are_hidden(look, inner, i, first.successful, first.is_near_back);
     PointTests tests;
     const auto test = [&](void (Strips::*add)(PointTests&)) {
         for (Strips& one : strips)
@@ -536,23 +575,28 @@ float apply(Lumels& lumels, const OpenPart& part)
 
 }  // namespace
 
-std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels,
-                               const std::vector<char>& chosen, const ProgressCallback& progress,
-                               Ranks* ranks)
+std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, const Atlas& atlas,
+                               Lumels& lumels, const std::vector<char>& chosen,
+                               const ProgressCallback& progress, Ranks* ranks)
 {
     const std::size_t count = lumels.lumels.size(), blocks = (count + kBlock - 1) / kBlock;
     std::vector<std::vector<OpenPart>> reduced(blocks);
     {
         const WorldLumels world(scene, rays, lumels);
         const LumelsInScene look{scene, rays, world, lumels};
+        const InnerSides inner(scene, atlas);
         const auto look_at = [&](std::size_t b) {
             for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, count); ++i) {
                 if (!chosen.empty() && !chosen[i])
                     continue;
-                const FirstLook first = first_look(look, i);
                 OpenPart part{i, {}, 0.0f};
+                if (inner.has(lumels.lumels[i])) {
+                    reduced[b].push_back(part);
+                    continue;
+                }
+                const FirstLook first = first_look(look, inner, i);
                 if (first.openness == Openness::partly)
-                    part = find_open_part(look, i, first);
+                    part = find_open_part(look, inner, i, first);
                 if (first.openness != Openness::open && part.share < 1.0f)
                     reduced[b].push_back(std::move(part));
             }

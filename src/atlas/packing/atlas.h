@@ -2,6 +2,7 @@
 // Atlas: separate texels for each surface of each instance. Lumels: patches made from texels. On
 // the CPU; equal scenes give equal bytes.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -65,6 +66,8 @@ struct Atlas {
     /// [chart_count] Offset from a chart's front to its back in the map [texels], 0 if both share
     /// texels; or empty.
     std::vector<glm::ivec2> back_shift;
+    /// [chart_count] Sides of double-sided charts inside closed solids: front, back; or empty.
+    std::vector<std::array<bool, 2>> inner;
     bool shows_front = false;        ///< shared texels show the front, not the brighter side
     std::vector<std::string> notes;  ///< messages for the user: overlaps, reduced density, …
 };
@@ -74,16 +77,22 @@ struct TriangleOf {
     std::uint32_t instance, primitive, triangle;
 };
 
-/// Selects charts, given by their triangles, whose two sides get separate texels [charts]. Called
-/// before packing. A chart may also be a whole layout of the file.
-using ShowsBoth =
-    std::function<std::vector<char>(const Scene&, std::span<const std::vector<TriangleOf>>)>;
+/// The two sides of a double-sided chart.
+struct ChartSides {
+    bool shows_both = false;      ///< each gets its own texels
+    std::array<bool, 2> inner{};  ///< front, back: inside a closed solid
+};
+
+/// Looks at the sides of charts, given by their triangles [charts]. Called before packing. A chart
+/// may also be a whole layout of the file.
+using FindSides =
+    std::function<std::vector<ChartSides>(const Scene&, std::span<const std::vector<TriangleOf>>)>;
 
 /// Builds the atlas. Charts have whole texel sizes, so that edges of rectangles coincide with texel
 /// edges; parts thinner than a texel share a neighbour's texels. Throws Error{input} if it cannot
-/// fit. shows_both: if empty, sides share texels.
+/// fit. find_sides: if empty, sides share texels.
 Atlas make_atlas(const Scene& scene, const AtlasOptions& options,
-                 const ProgressCallback& progress = {}, const ShowsBoth& shows_both = {});
+                 const ProgressCallback& progress = {}, const FindSides& find_sides = {});
 
 /// The patches of the radiosity equation, in Morton order within charts.
 struct Lumels {

@@ -383,16 +383,11 @@ std::vector<std::vector<TriangleOf>> triangles_of_surfaces(const Scene& scene)
     return triangles;
 }
 
-/// True if the file's single layout of the whole scene can be kept: it has no space for backs.
-bool keeps_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& reports,
-                      const ShowsBoth& shows_both, std::vector<std::string>& notes)
+/// True if no side needs space of its own, which the file's layout of the whole scene does not
+/// have.
+bool has_no_backs(const std::vector<ChartSides>& sides, std::vector<std::string>& notes)
 {
-    if (!is_scene_wide(scene, reports))
-        return false;
-    if (!shows_both)
-        return true;
-    const std::vector<char> both = shows_both(scene, triangles_of_surfaces(scene));
-    if (std::find(both.begin(), both.end(), 1) == both.end())
+    if (std::ranges::none_of(sides, &ChartSides::shows_both))
         return true;
     notes.emplace_back("TEXCOORD_1 has no space for the backs of double-sided surfaces, so each "
                        "mesh is packed again; --sides brighter keeps the layout");
@@ -401,17 +396,17 @@ bool keeps_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& rep
 
 /// Packs the rectangles, and a second one of equal size for the backs of each item with a two-sided
 /// unit. back: [items] the rectangle of its backs, or its own.
-Packing pack_sides(const Plans& plans, const Sheets& sheets, const std::vector<char>& both,
+Packing pack_sides(const Plans& plans, const Sheets& sheets, const std::vector<ChartSides>& sides,
                    const AtlasOptions& options, std::vector<std::uint32_t>& back,
                    std::vector<std::string>& notes)
 {
     back.resize(plans.items.size());
     std::iota(back.begin(), back.end(), 0u);
     std::vector<Rectangle> items = plans.items;
-    for (std::size_t s = 0; s < plans.surfaces.size() && !both.empty(); ++s)
+    for (std::size_t s = 0; s < plans.surfaces.size() && !sides.empty(); ++s)
         for (std::size_t t = 0; t < plans.surfaces[s].layout->chart.size(); ++t) {
             const std::uint32_t item = item_of(plans.surfaces[s], t);
-            if (!both[sheets.number(plans.surfaces[s], s, t)] || back[item] != item)
+            if (!sides[sheets.number(plans.surfaces[s], s, t)].shows_both || back[item] != item)
                 continue;
             back[item] = std::uint32_t(items.size());
             items.push_back(plans.items[item]);
@@ -421,19 +416,31 @@ Packing pack_sides(const Plans& plans, const Sheets& sheets, const std::vector<c
 
 /// Offsets from fronts of charts to their backs.
 std::vector<glm::ivec2> back_shifts(const Plans& plans, const Sheets& sheets,
-                                    const std::vector<char>& both, const Packing& packing,
+                                    const std::vector<ChartSides>& sides, const Packing& packing,
                                     const std::vector<std::uint32_t>& back, const Atlas& atlas)
 {
     std::vector<glm::ivec2> shifts(atlas.chart_count, glm::ivec2(0));
     for (std::size_t s = 0; s < plans.surfaces.size(); ++s)
         for (std::size_t t = 0; t < atlas.surfaces[s].chart.size(); ++t) {
-            if (!both[sheets.number(plans.surfaces[s], s, t)])
+            if (!sides[sheets.number(plans.surfaces[s], s, t)].shows_both)
                 continue;
             const std::uint32_t item = item_of(plans.surfaces[s], t);
             shifts[atlas.surfaces[s].chart[t]] =
                 packing.rectangles[back[item]].corner - packing.rectangles[item].corner;
         }
     return shifts;
+}
+
+/// [charts] Sides inside solids. unit: index in `sides` of a triangle of a surface.
+template <class Unit>
+std::vector<std::array<bool, 2>> inner_sides(const Atlas& atlas,
+                                             const std::vector<ChartSides>& sides, const Unit& unit)
+{
+    std::vector<std::array<bool, 2>> inner(atlas.chart_count);
+    for (std::size_t s = 0; s < atlas.surfaces.size(); ++s)
+        for (std::size_t t = 0; t < atlas.surfaces[s].chart.size(); ++t)
+            inner[atlas.surfaces[s].chart[t]] = sides[unit(s, t)].inner;
+    return inner;
 }
 
 /// Checks the layouts of the file, and warns of unusable ones.
@@ -458,7 +465,7 @@ std::vector<AuthoredReport> check_all(const Scene& scene, std::vector<std::strin
 }  // namespace
 
 Atlas make_atlas(const Scene& scene, const AtlasOptions& requested,
-                 const ProgressCallback& progress, const ShowsBoth& shows_both)
+                 const ProgressCallback& progress, const FindSides& find_sides)
 {
     check(scene, requested);
     Atlas atlas;
@@ -476,18 +483,21 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested,
     Plans plans;
     Packing packing;
     std::optional<Sheets> sheets;
-    std::vector<char> both;
+    std::vector<ChartSides> sides;
     std::vector<std::uint32_t> back;
-    if (keeps_scene_wide(scene, reports, shows_both, atlas.notes)) {
+    const bool scene_wide = is_scene_wide(scene, reports);
+    if (scene_wide && find_sides)
+        sides = find_sides(scene, triangles_of_surfaces(scene));
+    if (scene_wide && has_no_backs(sides, atlas.notes)) {
         packing = pack_scene_wide(scene, reports, options, plans, atlas.notes);
     } else {
         plans = plan(scene, reports, options);
         notify(progress, kPlanned);
         sheets.emplace(plans);
-        if (shows_both)
-            both = shows_both(scene, sheets->triangles());
+        if (find_sides)
+            sides = find_sides(scene, sheets->triangles());
         notify(progress, kSidesKnown);
-        packing = pack_sides(plans, *sheets, both, options, back, atlas.notes);
+        packing = pack_sides(plans, *sheets, sides, options, back, atlas.notes);
     }
     notify(progress, kPacked);
     atlas.pages = packing.pages;
@@ -497,7 +507,11 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested,
         atlas.surfaces.push_back(place(surface, plans, packing));
     number_charts(scene, atlas);
     if (std::size_t(packing.rectangles.size()) > plans.items.size())
-        atlas.back_shift = back_shifts(plans, *sheets, both, packing, back, atlas);
+        atlas.back_shift = back_shifts(plans, *sheets, sides, packing, back, atlas);
+    if (!sides.empty())
+        atlas.inner = inner_sides(atlas, sides, [&](std::size_t s, std::size_t t) {
+            return sheets ? sheets->number(plans.surfaces[s], s, t) : s;
+        });
     atlas.shows_front = options.sides == Sides::front;
     for (const std::string& pattern : unmatched(scene, options.densities))
         atlas.notes.push_back(fmt::format(

@@ -20,6 +20,8 @@ constexpr double kSharedWalks = 1 << 15;
 /// is invisible.
 constexpr std::uint32_t kWalksForLight = 64;
 constexpr std::uint32_t kMaxSteps = 24;  ///< steps per walk
+/// Dark sides are inside a solid if most rays from them are shorter [m]. Dark rooms are wider.
+constexpr float kThickest = 1.0f;
 /// Walks from each lamp, which light the surfaces that they hit; fewer if there are many lamps.
 constexpr std::uint32_t kLampWalks = 256, kMinLampWalks = 16, kAllLampWalks = 1 << 16;
 constexpr std::uint32_t kLampSteps = 3;
@@ -108,9 +110,9 @@ struct Place {
 };
 
 /// The double-sided triangles of a chart.
-class ChartSides {
+class DoubleSided {
 public:
-    ChartSides(const Scene& scene, const std::vector<TriangleOf>& chart)
+    DoubleSided(const Scene& scene, const std::vector<TriangleOf>& chart)
     {
         for (const TriangleOf& at : chart) {
             if (!is_double_sided(scene, at))
@@ -141,21 +143,26 @@ private:
     bool glows_ = false;
 };
 
+/// True if the lamp, switched on, shines along a direction.
+bool may_shine(const Scene& scene, PunctualLight lamp, const glm::vec3& direction)
+{
+    lamp.intensity = 1.0f;
+    lamp.color = glm::vec3(1.0f);
+    return intensity_towards(scene, lamp, direction) != glm::vec3(0.0f);
+}
+
 /// True if light of one lamp, chosen by `seed`, reaches the position.
 bool sees_lamp(const Scene& scene, const RayScene& rays, const Place& at, std::uint32_t seed)
 {
     if (scene.lights.empty())
         return false;
     const PunctualLight& lamp = scene.lights[seed % scene.lights.size()];
-    if (!shines(lamp))
-        return false;
     if (lamp.kind == PunctualLight::Kind::directional) {
         const glm::vec3 to_lamp = glm::normalize(glm::vec3(lamp.transform[2]));
         return glm::dot(at.normal, to_lamp) > 0.0f && rays.sees_out(at.position, to_lamp, seed);
     }
     const glm::vec3 place(lamp.transform[3]), away = at.position - place;
-    return glm::dot(at.normal, away) < 0.0f &&
-           intensity_towards(scene, lamp, glm::normalize(away)) != glm::vec3(0.0f) &&
+    return glm::dot(at.normal, away) < 0.0f && may_shine(scene, lamp, glm::normalize(away)) &&
            rays.sees(at.position, place,
                      ray_offset_for(std::max(largest_coordinate(place), glm::length(away))), seed);
 }
@@ -196,6 +203,12 @@ private:
     TrianglesByArea triangles_;
 };
 
+/// Cosine-distributed about a normal.
+glm::vec3 any_about(const glm::vec3& normal, std::uint32_t seed)
+{
+    return direction_about(normal, {unit_float(seed), unit_float(mixed_bits(~seed))});
+}
+
 /// Follows a walk to its end. Returns true if it finds light.
 bool finds_light(const Scene& scene, const RayScene& rays, const EmissiveTriangles& emitters,
                  Place at, std::uint32_t key, bool daylit)
@@ -204,8 +217,7 @@ bool finds_light(const Scene& scene, const RayScene& rays, const EmissiveTriangl
         const std::uint32_t seed = mixed_bits(key + step);
         if (sees_lamp(scene, rays, at, seed) || emitters.light(rays, at, seed))
             return true;
-        const glm::vec3 direction =
-            direction_about(at.normal, {unit_float(seed), unit_float(mixed_bits(~seed))});
+        const glm::vec3 direction = any_about(at.normal, seed);
         RayHit hit;
         if (!rays.closest(ray_out(at.position, direction, seed), hit))
             return (daylit && direction.y > 0.0f) ||
@@ -263,13 +275,13 @@ std::vector<char> lit_by_lamps(const Scene& scene, const RayScene& rays,
     const auto lamps = std::uint32_t(scene.lights.size());
     for (std::uint32_t i = 0; i < lamps; ++i) {
         const PunctualLight& lamp = scene.lights[i];
-        if (lamp.kind == PunctualLight::Kind::directional || !shines(lamp))
+        if (lamp.kind == PunctualLight::Kind::directional)
             continue;
         const std::uint32_t walks = std::clamp(kAllLampWalks / lamps, kMinLampWalks, kLampWalks);
         for (std::uint32_t walk = 0; walk < walks; ++walk) {
             std::uint32_t seed = mixed_bits(i * kLampWalks + walk);
             glm::vec3 from(lamp.transform[3]), direction = any_direction(seed);
-            if (intensity_towards(scene, lamp, direction) == glm::vec3(0.0f))
+            if (!may_shine(scene, lamp, direction))
                 continue;
             RayHit hit;
             for (std::uint32_t step = 0;
@@ -279,69 +291,131 @@ std::vector<char> lit_by_lamps(const Scene& scene, const RayScene& rays,
                 lit[2 * chart.of(hit) + (hit.front ? 0 : 1)] = 1;
                 seed = mixed_bits(seed + 1);
                 from += direction * hit.distance * (1.0f - kBefore);
-                direction = direction_about(hit.front ? hit.normal : -hit.normal,
-                                            {unit_float(seed), unit_float(mixed_bits(~seed))});
+                direction = any_about(hit.front ? hit.normal : -hit.normal, seed);
             }
         }
     }
     return lit;
 }
 
+/// Looks for light on the sides of double-sided charts.
+class LightOnSides {
+public:
+    LightOnSides(const Scene& scene, const RayScene& rays,
+                 std::span<const std::vector<TriangleOf>> charts, bool daylit)
+        : scene_(scene),
+          rays_(rays),
+          emitters_(scene),
+          daylit_(daylit)
+    {
+        for (const std::vector<TriangleOf>& chart : charts) {
+            sides_.emplace_back(scene, chart);
+            area_ += sides_.back().area();
+        }
+        if (area_ > 0.0)
+            by_lamps_ = lit_by_lamps(scene, rays, charts);
+    }
+
+    ChartSides of(std::size_t chart) const
+    {
+        ChartSides found;
+        if (sides_[chart].area() == 0.0)
+            return found;
+        found.shows_both = true;
+        for (const bool back : {false, true}) {
+            const Light light = on(chart, back);
+            found.shows_both &= light == Light::enough;
+            found.inner[back] = light == Light::none && is_narrow(chart, back);
+        }
+        return found;
+    }
+
+private:
+    enum class Light { none, little, enough };
+
+    Light on(std::size_t chart, bool back) const
+    {
+        if (sides_[chart].glows() || by_lamps_[2 * chart + back])
+            return Light::enough;
+        const auto walks = std::uint32_t(std::clamp(kSharedWalks * sides_[chart].area() / area_,
+                                                    double(kMinWalks), double(kMaxWalks)));
+        const std::uint32_t enough = std::max(1u, walks / kWalksForLight);
+        std::uint32_t lit = 0;
+        for (std::uint32_t walk = 0; walk < walks && lit < enough; ++walk)
+            lit += finds_light(scene_, rays_, emitters_, sides_[chart].start(back, walk, walks),
+                               seed_of(chart, back, walk), daylit_);
+        return lit == 0 ? Light::none : lit < enough ? Light::little : Light::enough;
+    }
+
+    /// True if most rays from a side hit something within kThickest.
+    bool is_narrow(std::size_t chart, bool back) const
+    {
+        std::uint32_t near = 0;
+        for (std::uint32_t ray = 0; ray < kMinWalks; ++ray) {
+            const Place at = sides_[chart].start(back, ray, kMinWalks);
+            const std::uint32_t seed = seed_of(chart, back, ray);
+            RayHit hit;
+            near += rays_.closest(ray_out(at.position, any_about(at.normal, seed), seed), hit) &&
+                    hit.distance < kThickest;
+        }
+        return 2 * near > kMinWalks;
+    }
+
+    static std::uint32_t seed_of(std::size_t chart, bool back, std::uint32_t walk)
+    {
+        return mixed_bits(2 * std::uint32_t(chart) + back) + walk * kMaxSteps;
+    }
+
+    const Scene& scene_;
+    const RayScene& rays_;
+    EmissiveTriangles emitters_;
+    std::vector<DoubleSided> sides_;  ///< [charts]
+    double area_ = 0.0;               ///< of all [m²]
+    std::vector<char> by_lamps_;      ///< see lit_by_lamps()
+    bool daylit_;
+};
+
 }  // namespace
 
-std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
-                                    std::span<const std::vector<TriangleOf>> charts, bool daylit)
+std::vector<ChartSides> light_on_sides(const Scene& scene, const RayScene& rays,
+                                       std::span<const std::vector<TriangleOf>> charts, bool daylit)
 {
-    std::vector<char> both(charts.size(), 0);
-    std::vector<ChartSides> sides;
-    double all = 0.0;
-    for (const std::vector<TriangleOf>& chart : charts) {
-        sides.emplace_back(scene, chart);
-        all += sides.back().area();
-    }
-    if (all == 0.0)
-        return both;
-    const std::vector<char> by_lamps = lit_by_lamps(scene, rays, charts);
-    const EmissiveTriangles emitters(scene);
-    const auto is_lit = [&](std::size_t chart, bool back) {
-        if (sides[chart].glows() || by_lamps[2 * chart + back])
-            return true;
-        const double share = sides[chart].area() / all;
-        const auto walks =
-            std::uint32_t(std::clamp(kSharedWalks * share, double(kMinWalks), double(kMaxWalks)));
-        std::uint32_t wanted = std::max(1u, walks / kWalksForLight);
-        for (std::uint32_t walk = 0; walk < walks && wanted > 0; ++walk) {
-            const std::uint32_t key =
-                mixed_bits(2 * std::uint32_t(chart) + back) + walk * kMaxSteps;
-            wanted -= finds_light(scene, rays, emitters, sides[chart].start(back, walk, walks), key,
-                                  daylit);
-        }
-        return wanted == 0;
-    };
+    const LightOnSides light(scene, rays, charts, daylit);
+    std::vector<ChartSides> found(charts.size());
     parallel_for(charts.size(), 16, [&](std::size_t first, std::size_t last) {
         for (std::size_t chart = first; chart < last; ++chart)
-            both[chart] = sides[chart].area() > 0.0 && is_lit(chart, true) && is_lit(chart, false);
+            found[chart] = light.of(chart);
     });
-    return both;
+    return found;
 }
 
-ShowsBoth shows_both(Sides sides, const RayScene& rays, bool daylit)
+std::vector<std::array<bool, 2>> inner_sides(const Scene& scene, const RayScene& rays,
+                                             const Atlas& atlas)
 {
-    if (sides == Sides::automatic)
-        return
-            [&rays, daylit](const Scene& scene, std::span<const std::vector<TriangleOf>> charts) {
-                return lit_on_both_sides(scene, rays, charts, daylit);
-            };
-    if (sides == Sides::both)
-        return [](const Scene& scene, std::span<const std::vector<TriangleOf>> charts) {
-            std::vector<char> both;
-            for (const std::vector<TriangleOf>& chart : charts)
-                both.push_back(std::any_of(chart.begin(), chart.end(), [&](const TriangleOf& at) {
-                    return is_double_sided(scene, at);
-                }));
-            return both;
-        };
-    return {};
+    std::vector<std::vector<TriangleOf>> charts(atlas.chart_count);
+    for (const Surface& surface : atlas.surfaces)
+        for (std::uint32_t t = 0; t < surface.chart.size(); ++t)
+            charts[surface.chart[t]].push_back({surface.instance, surface.primitive, t});
+    std::vector<std::array<bool, 2>> inner;
+    for (const ChartSides& sides : light_on_sides(scene, rays, charts))
+        inner.push_back(sides.inner);
+    return inner;
+}
+
+FindSides sides_by_light(Sides wanted, const RayScene& rays, bool daylit)
+{
+    return [&rays, wanted, daylit](const Scene& scene,
+                                   std::span<const std::vector<TriangleOf>> charts) {
+        std::vector<ChartSides> sides = light_on_sides(scene, rays, charts, daylit);
+        if (wanted == Sides::automatic)
+            return sides;
+        for (std::size_t chart = 0; chart < charts.size(); ++chart)
+            sides[chart].shows_both = wanted == Sides::both &&
+                                      std::ranges::any_of(charts[chart], [&](const TriangleOf& at) {
+                                          return is_double_sided(scene, at);
+                                      });
+        return sides;
+    };
 }
 
 }  // namespace lumel

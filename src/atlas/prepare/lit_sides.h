@@ -1,6 +1,7 @@
 #pragma once
-// Finds double-sided charts that are lit on both sides.
+// Light on the two sides of double-sided charts.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -9,15 +10,20 @@
 
 namespace lumel {
 
-/// [charts] 1 for double-sided charts whose two sides light may reach. A side is lit if enough
-/// random walks from it find a lamp, the sky or an emissive surface. Inside a closed solid none do.
-/// daylit: the sky counts as light whatever it is in the scene.
-std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
-                                    std::span<const std::vector<TriangleOf>> charts,
-                                    bool daylit = false);
+/// Looks for light on both sides of double-sided charts [charts] by random walks from them. Both
+/// are shown if enough walks from each side find a lamp, the sky or an emissive surface. A side is
+/// inside a solid if none does and most rays from it are shorter than 1 m. Lamps that are off count
+/// as on, since they may be switched on later. daylit: the sky counts as light whatever it is in
+/// the scene.
+std::vector<ChartSides> light_on_sides(const Scene& scene, const RayScene& rays,
+                                       std::span<const std::vector<TriangleOf>> charts,
+                                       bool daylit = false);
 
-/// Argument of make_atlas for Sides::automatic and Sides::both; empty for others. `rays` must
-/// outlive it. daylit: as above.
-ShowsBoth shows_both(Sides sides, const RayScene& rays, bool daylit = false);
+/// Atlas::inner of an atlas that was not made here, as one out of a file.
+std::vector<std::array<bool, 2>> inner_sides(const Scene& scene, const RayScene& rays,
+                                             const Atlas& atlas);
+
+/// Argument of make_atlas for these sides. `rays` must outlive it. daylit: as above.
+FindSides sides_by_light(Sides sides, const RayScene& rays, bool daylit = false);
 
 }  // namespace lumel

@@ -79,7 +79,7 @@ SolveScene::SolveScene(Scene given, const AtlasOptions& options, const ProgressC
           std::move(given),
           [&](const Scene& placed, const RayScene& among, const ProgressCallback& part) {
               return make_atlas(placed, options, part,
-                                shows_both(options.sides, among, options.daylit));
+                                sides_by_light(options.sides, among, options.daylit));
           },
           {}, progress)
 {
@@ -98,8 +98,8 @@ SolveScene::SolveScene(Scene given, const LayOut& lay_out, const Bury& bury,
                     "has no surface that can receive light: nothing is drawn, or all of it is "
                     "cut out");
     const ProgressCallback burying = part_of(progress, kLifted, 1.0);
-    open =
-        bury ? bury(scene, rays, lumels, burying) : mark_buried(scene, rays, lumels, {}, burying);
+    open = bury ? bury(scene, rays, atlas, lumels, burying)
+                : mark_buried(scene, rays, atlas, lumels, {}, burying);
 }
 
 SolveScene::SolveScene(Scene given, Atlas laid_out, Lumels made, std::vector<std::uint32_t> moving)
@@ -135,21 +135,21 @@ std::unique_ptr<SolveScene> lay_out_movers(Scene scene, const AtlasOptions& opti
     // Movers block no light here, since they may leave. Rays from inside of them would leave, too,
     // so their sides share texels.
     std::optional<RayScene> still;
-    ShowsBoth shown;
+    FindSides sides;
     if (options.sides == Sides::automatic || options.sides == Sides::both) {
         still.emplace(scene, those_that_stay(scene, ascending));
-        shown = shows_both(options.sides, *still);
+        sides = sides_by_light(options.sides, *still);
     }
     const auto of_still_ones = [&](const Scene& placed,
                                    std::span<const std::vector<TriangleOf>> charts) {
-        std::vector<char> both = shown(placed, charts);
+        std::vector<ChartSides> found = sides(placed, charts);
         for (std::size_t chart = 0; chart < charts.size(); ++chart)
             if (!charts[chart].empty() && moves[charts[chart].front().instance])
-                both[chart] = 0;
-        return both;
+                found[chart].shows_both = false;
+        return found;
     };
     Atlas atlas = make_atlas(scene, options, {},
-                             options.sides == Sides::automatic ? ShowsBoth(of_still_ones) : shown);
+                             options.sides == Sides::automatic ? FindSides(of_still_ones) : sides);
     Lumels lumels = make_lumels(scene, atlas, moves);
     return std::make_unique<SolveScene>(std::move(scene), std::move(atlas), std::move(lumels),
                                         std::move(ascending));

@@ -29,8 +29,8 @@ struct SolveScene {
     /// Uses the atlas that `lay_out` makes, and `bury`, whose result is `open`, instead of
     /// mark_buried.
     using LayOut = std::function<Atlas(const Scene&, const RayScene&, const ProgressCallback&)>;
-    using Bury = std::function<std::vector<float>(const Scene&, const RayScene&, Lumels&,
-                                                  const ProgressCallback&)>;
+    using Bury = std::function<std::vector<float>(const Scene&, const RayScene&, const Atlas&,
+                                                  Lumels&, const ProgressCallback&)>;
     SolveScene(Scene scene, const LayOut& lay_out, const Bury& bury = {},
                const ProgressCallback& progress = {});
     /// Uses an atlas and lumels of the scene. movers: instances that may move; `rays` omits them.

@@ -60,7 +60,7 @@ std::string of_back_sides(const SolveScene& prepared)
 {
     const std::vector<Lumel>& lumels = prepared.lumels.lumels;
     const auto backs = std::count_if(lumels.begin(), lumels.end(), [](const Lumel& lumel) {
-        return (lumel.flags & kLumelBack) != 0;
+        return (lumel.flags & kLumelBack) != 0 && (lumel.flags & kLumelBuried) == 0;
     });
     const double share = double(backs) / double(std::max<std::size_t>(lumels.size(), 1));
     if (!(share > kManyBacks))

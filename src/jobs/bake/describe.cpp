@@ -51,10 +51,10 @@ public:
               std::move(scene),
               [&](const Scene& placed, const RayScene& rays, const ProgressCallback& progress) {
                   return make_atlas(placed, options, progress,
-                                    shows_both(options.sides, rays, options.daylit));
+                                    sides_by_light(options.sides, rays, options.daylit));
               },
-              [&](const Scene& placed, const RayScene& rays, Lumels& lumels,
-                  const ProgressCallback&) { return mark_some(placed, rays, lumels); })
+              [&](const Scene& placed, const RayScene& rays, const Atlas& atlas, Lumels& lumels,
+                  const ProgressCallback&) { return mark_some(placed, rays, atlas, lumels); })
     {
     }
 
@@ -62,7 +62,8 @@ public:
     const Open& open() const { return open_; }
 
 private:
-    std::vector<float> mark_some(const Scene& scene, const RayScene& rays, Lumels& lumels)
+    std::vector<float> mark_some(const Scene& scene, const RayScene& rays, const Atlas& atlas,
+                                 Lumels& lumels)
     {
         constexpr std::size_t kLooks = std::size_t(1) << 17;  // estimates the fraction to 0.2 %
         constexpr std::uint32_t kMix = 2654435761u;           // Knuth's multiplier
@@ -72,7 +73,7 @@ private:
         for (std::size_t i = 0; i < count; ++i)
             chosen[i] = ((std::uint32_t(i) * kMix) >> 8) % every == 0;
         const double whole = front_area(lumels);
-        std::vector<float> shares = mark_buried(scene, rays, lumels, chosen);
+        std::vector<float> shares = mark_buried(scene, rays, atlas, lumels, chosen);
         open_.area = std::max(whole - double(every) * (whole - front_area(lumels)), 0.0);
         for (const Lumel& lumel : lumels.lumels)
             open_.buried += (lumel.flags & kLumelBuried) ? every : 0;

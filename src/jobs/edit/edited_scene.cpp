@@ -6,6 +6,7 @@
 
 #include "atlas/lumels/sides.h"
 #include "atlas/near/buried.h"
+#include "atlas/prepare/lit_sides.h"
 #include "jobs/edit/kept_atlas.h"
 #include "scene/values/scene_hash.h"
 
@@ -137,19 +138,22 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
                          const BakeRecord& baked, const SolveScene::LayOut& atlas_before,
                          bool as_a_bake)
     : before(std::move(scene_before), atlas_before,
-             [&](const Scene&, const RayScene&, Lumels& lumels, const ProgressCallback&) {
-                 return bury_as_before(solution, lumels);
-             }),
+             [&](const Scene&, const RayScene&, const Atlas&, Lumels& lumels,
+                 const ProgressCallback&) { return bury_as_before(solution, lumels); }),
       matches(match_instances(before.scene, scene_now)),
       balls(changed_balls(before.scene, scene_now, matches)),
       now(
           std::move(scene_now),
-          [&](const Scene& scene, const RayScene&, const ProgressCallback&) {
-              return kept_atlas(before.scene, before.atlas, scene, matches, baked.atlas.gutter);
+          [&](const Scene& scene, const RayScene& rays, const ProgressCallback&) {
+              Atlas atlas =
+                  kept_atlas(before.scene, before.atlas, scene, matches, baked.atlas.gutter);
+              atlas.inner = inner_sides(scene, rays, atlas);
+              return atlas;
           },
-          [&](const Scene& scene, const RayScene& rays, Lumels& lumels, const ProgressCallback&) {
-              return as_a_bake ? mark_buried(scene, rays, lumels)
-                               : bury_anew(scene, rays, solution, lumels);
+          [&](const Scene& scene, const RayScene& rays, const Atlas& atlas, Lumels& lumels,
+              const ProgressCallback&) {
+              return as_a_bake ? mark_buried(scene, rays, atlas, lumels)
+                               : bury_anew(scene, rays, atlas, solution, lumels);
           }),
       same(same_lumels(*this)),
       partner(partners(*this, same))
@@ -158,10 +162,11 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
 
 // Tests only where needed: testing everywhere takes longer than all other work.
 std::vector<float> EditedScene::bury_anew(const Scene& scene, const RayScene& rays,
-                                          const StoredSolution& solution, Lumels& lumels)
+                                          const Atlas& atlas, const StoredSolution& solution,
+                                          Lumels& lumels)
 {
     const std::vector<char> again = disturbed(scene, lumels, matches, balls, solution.side);
-    std::vector<float> open = mark_buried(scene, rays, lumels, again);
+    std::vector<float> open = mark_buried(scene, rays, atlas, lumels, again);
     thinned.assign(open.size(), 1.0f);
     for (std::size_t i = 0; i < open.size(); ++i) {
         if (again[i])

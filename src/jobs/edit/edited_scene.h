@@ -43,7 +43,7 @@ struct EditedScene {
 private:
     EditedScene(Scene before, Scene now, const StoredSolution& solution, const BakeRecord& baked,
                 const SolveScene::LayOut& atlas_before, bool as_a_bake);
-    std::vector<float> bury_anew(const Scene& scene, const RayScene& rays,
+    std::vector<float> bury_anew(const Scene& scene, const RayScene& rays, const Atlas& atlas,
                                  const StoredSolution& solution, Lumels& lumels);
 };
 

@@ -40,9 +40,8 @@ FinishedBake::FinishedBake(Files files)
               return written_atlas(scene, record.pages, float(record.texels_per_metre),
                                    solution.charts);
           },
-          [&](const Scene&, const RayScene&, Lumels& lumels, const ProgressCallback&) {
-              return bury_as_before(solution, lumels);
-          })
+          [&](const Scene&, const RayScene&, const Atlas&, Lumels& lumels,
+              const ProgressCallback&) { return bury_as_before(solution, lumels); })
 {
     for (const Lumel& lumel : prepared.lumels.lumels)
         irradiance.push_back(solution.irradiance(lumel, lumel.texel));

@@ -44,7 +44,7 @@ Image error_map(const Lumels& lumels, const std::vector<glm::vec3>& irradiance,
             map.values[4 * texel] = error[shown[texel]];
             map.values[4 * texel + 3] = 1.0f;
         }
-    fill_buried(map, lumels);
+    fill_buried(map, lumels, shown);
     dilate(map);
     return map;
 }

@@ -74,10 +74,10 @@ SolveScene::Bury bury_by(Ranks* ranks)
 {
     if (!ranks)
         return {};
-    return [ranks](const Scene& scene, const RayScene& rays, Lumels& lumels,
+    return [ranks](const Scene& scene, const RayScene& rays, const Atlas& atlas, Lumels& lumels,
                    const ProgressCallback& progress) {
         agree_on_lumels(*ranks, scene, lumels);
-        return mark_buried(scene, rays, lumels, {}, progress, ranks);
+        return mark_buried(scene, rays, atlas, lumels, {}, progress, ranks);
     };
 }
 
@@ -176,7 +176,7 @@ Setting::Setting(Scene scene, const gpu::Device* device, const BakeOptions& opti
           std::move(scene),
           [&](const Scene& placed, const RayScene& rays, const ProgressCallback& progress) {
               return make_atlas(placed, options.atlas, progress,
-                                shows_both(options.atlas.sides, rays, options.atlas.daylit));
+                                sides_by_light(options.atlas.sides, rays, options.atlas.daylit));
           },
           device, options, stages, ranks)
 {

@@ -9,19 +9,34 @@ namespace {
 using test::grid;
 using test::rgb;
 
-Image lit_map(const Lumels& lumels, float open_light)
+Image filled(const Lumels& lumels, const std::vector<glm::vec3>& values)
+{
+    Image map = to_map(lumels, values);
+    fill_buried(map, lumels, shown_lumels(lumels, values));
+    return map;
+}
+
+Image filled(const Lumels& lumels, float open_light)
 {
     std::vector<glm::vec3> values;
     for (const Lumel& lumel : lumels.lumels)
         values.emplace_back(lumel.flags & kLumelBuried ? 0.0f : open_light);
-    return to_map(lumels, values);
+    return filled(lumels, values);
+}
+
+/// Adds the backs of all lumels, which share their texels.
+void add_backs(Lumels& lumels, std::uint32_t flags)
+{
+    for (Lumel back : std::vector<Lumel>(lumels.lumels)) {
+        back.flags = kLumelBack | flags;
+        lumels.lumels.push_back(back);
+    }
 }
 
 TEST(FillBuried, BuriedTexelsTakeTheLightAroundThem)
 {
     const Lumels lumels = grid({"aaaaa", "aAAAa", "aAAAa", "aAAAa", "aaaaa"});
-    Image map = lit_map(lumels, 7.0f);
-    fill_buried(map, lumels);
+    const Image map = filled(lumels, 7.0f);
     for (int y = 0; y < 5; ++y)
         for (int x = 0; x < 5; ++x)
             EXPECT_EQ(rgb(map, x, y), glm::vec3(7.0f));
@@ -30,9 +45,7 @@ TEST(FillBuried, BuriedTexelsTakeTheLightAroundThem)
 TEST(FillBuried, OpenTexelsStayAsTheyWereAlsoWhenTheyAreBlack)
 {
     const Lumels lumels = grid({"aaA"});
-    Image map = lit_map(lumels, 0.0f);
-    map.at(1, 0)[0] = 3.0f;
-    fill_buried(map, lumels);
+    const Image map = filled(lumels, {glm::vec3(0.0f), {3.0f, 0.0f, 0.0f}, glm::vec3(0.0f)});
     EXPECT_EQ(map.at(0, 0)[0], 0.0f);
     EXPECT_EQ(map.at(1, 0)[0], 3.0f);
     EXPECT_EQ(map.at(2, 0)[0], 3.0f);
@@ -41,8 +54,7 @@ TEST(FillBuried, OpenTexelsStayAsTheyWereAlsoWhenTheyAreBlack)
 TEST(FillBuried, LightNeverComesFromAnotherChart)
 {
     const Lumels lumels = grid({"bbB", "AAA"});
-    Image map = lit_map(lumels, 7.0f);
-    fill_buried(map, lumels);
+    const Image map = filled(lumels, 7.0f);
     EXPECT_EQ(rgb(map, 2, 0), glm::vec3(7.0f));
     for (int x = 0; x < 3; ++x)
         EXPECT_EQ(rgb(map, x, 1), glm::vec3(0.0f));
@@ -51,17 +63,21 @@ TEST(FillBuried, LightNeverComesFromAnotherChart)
 TEST(FillBuried, AnOpenBackKeepsItsLightOverABuriedFront)
 {
     Lumels lumels = grid({"aA"});
-    for (Lumel back : std::vector<Lumel>(lumels.lumels)) {
-        back.flags = kLumelBack;
-        lumels.lumels.push_back(back);
-    }
-    std::vector<glm::vec3> values;
-    for (const float value : {1.0f, 0.0f, 5.0f, 6.0f})
-        values.emplace_back(value);
-    Image map = to_map(lumels, values);
-    fill_buried(map, lumels);
+    add_backs(lumels, 0);
+    const Image map =
+        filled(lumels, {glm::vec3(1.0f), glm::vec3(0.0f), glm::vec3(5.0f), glm::vec3(6.0f)});
     EXPECT_EQ(map.at(0, 0)[0], 5.0f);
     EXPECT_EQ(map.at(1, 0)[0], 6.0f);
+}
+
+TEST(FillBuried, AnOpenFrontStaysBlackOverABuriedBack)
+{
+    Lumels lumels = grid({"aa"});
+    add_backs(lumels, kLumelBuried);
+    const Image map =
+        filled(lumels, {glm::vec3(3.0f), glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)});
+    EXPECT_EQ(map.at(0, 0)[0], 3.0f);
+    EXPECT_EQ(map.at(1, 0)[0], 0.0f);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ void add_box(std::vector<Quad>& quads, const glm::vec3& low, const glm::vec3& hi
 /// Marks the lumels that are buried, and returns them.
 std::vector<bool> buried(HandMade made)
 {
-    mark_buried(made.scene, RayScene(made.scene), made.lumels);
+    mark_buried(made.scene, RayScene(made.scene), {}, made.lumels);
     std::vector<bool> result;
     for (const Lumel& lumel : made.lumels.lumels)
         result.push_back((lumel.flags & kLumelBuried) != 0);
@@ -151,7 +151,7 @@ TEST(Buried, AWallBehindASkirtingBoardIs)
     for (const std::size_t side : {0u, 1u, 3u, 5u})
         quads.push_back(sides[side]);
     HandMade made = make_quads(quads);
-    const std::vector<float> open = mark_buried(made.scene, RayScene(made.scene), made.lumels);
+    const std::vector<float> open = mark_buried(made.scene, RayScene(made.scene), {}, made.lumels);
     for (int row = 1; row < kRows; ++row)
         for (int column = 0; column < kColumns; ++column)
             EXPECT_NEAR(open[std::size_t(kColumns * row + column)],
