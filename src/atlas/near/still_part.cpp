@@ -42,7 +42,7 @@ Lumels make_lumels(const Scene& scene, const Atlas& atlas, const std::vector<cha
     const RayScene rays(still);
     const std::vector<Lumel> before = lumels.lumels;
     const std::vector<Piece> pieces = lumels.pieces;
-    mark_buried(scene, rays, {}, lumels);
+    mark_buried(scene, rays, atlas, lumels);
     for (std::size_t i = 0; i < before.size(); ++i) {
         if (!movers[before[i].instance])
             continue;

@@ -1,7 +1,6 @@
 #include "atlas/prepare/solve_scene.h"
 
 #include <algorithm>
-#include <optional>
 #include <span>
 
 #include "atlas/near/buried.h"
@@ -134,22 +133,17 @@ std::unique_ptr<SolveScene> lay_out_movers(Scene scene, const AtlasOptions& opti
             ascending.push_back(i);
     // Movers block no light here, since they may leave. Rays from inside of them would leave, too,
     // so their sides share texels.
-    std::optional<RayScene> still;
-    FindSides sides;
-    if (options.sides == Sides::automatic || options.sides == Sides::both) {
-        still.emplace(scene, those_that_stay(scene, ascending));
-        sides = sides_by_light(options.sides, *still);
-    }
-    const auto of_still_ones = [&](const Scene& placed,
-                                   std::span<const std::vector<TriangleOf>> charts) {
-        std::vector<ChartSides> found = sides(placed, charts);
+    const RayScene still(scene, those_that_stay(scene, ascending));
+    const auto find_sides = [&](const Scene& placed,
+                                std::span<const std::vector<TriangleOf>> charts) {
+        std::vector<ChartSides> found = sides_by_light(options.sides, still)(placed, charts);
         for (std::size_t chart = 0; chart < charts.size(); ++chart)
             if (!charts[chart].empty() && moves[charts[chart].front().instance])
-                found[chart].shows_both = false;
+                found[chart] = {.shows_both =
+                                    options.sides == Sides::both && found[chart].shows_both};
         return found;
     };
-    Atlas atlas = make_atlas(scene, options, {},
-                             options.sides == Sides::automatic ? FindSides(of_still_ones) : sides);
+    Atlas atlas = make_atlas(scene, options, {}, find_sides);
     Lumels lumels = make_lumels(scene, atlas, moves);
     return std::make_unique<SolveScene>(std::move(scene), std::move(atlas), std::move(lumels),
                                         std::move(ascending));
