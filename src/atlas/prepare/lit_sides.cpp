@@ -389,17 +389,16 @@ std::vector<ChartSides> light_on_sides(const Scene& scene, const RayScene& rays,
     return found;
 }
 
-std::vector<std::array<bool, 2>> inner_sides(const Scene& scene, const RayScene& rays,
-                                             const Atlas& atlas)
+Atlas with_inner_sides(const Scene& scene, const RayScene& rays, Atlas atlas)
 {
     std::vector<std::vector<TriangleOf>> charts(atlas.chart_count);
     for (const Surface& surface : atlas.surfaces)
         for (std::uint32_t t = 0; t < surface.chart.size(); ++t)
             charts[surface.chart[t]].push_back({surface.instance, surface.primitive, t});
-    std::vector<std::array<bool, 2>> inner;
+    atlas.inner.clear();
     for (const ChartSides& sides : light_on_sides(scene, rays, charts))
-        inner.push_back(sides.inner);
-    return inner;
+        atlas.inner.push_back(sides.inner);
+    return atlas;
 }
 
 FindSides sides_by_light(Sides wanted, const RayScene& rays, bool daylit)

@@ -1,7 +1,6 @@
 #pragma once
 // Light on the two sides of double-sided charts.
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -19,9 +18,8 @@ std::vector<ChartSides> light_on_sides(const Scene& scene, const RayScene& rays,
                                        std::span<const std::vector<TriangleOf>> charts,
                                        bool daylit = false);
 
-/// Atlas::inner of an atlas that was not made here, as one out of a file.
-std::vector<std::array<bool, 2>> inner_sides(const Scene& scene, const RayScene& rays,
-                                             const Atlas& atlas);
+/// An atlas with its Atlas::inner, which one out of a file lacks.
+Atlas with_inner_sides(const Scene& scene, const RayScene& rays, Atlas atlas);
 
 /// Argument of make_atlas for these sides. `rays` must outlive it. daylit: as above.
 FindSides sides_by_light(Sides sides, const RayScene& rays, bool daylit = false);

@@ -144,16 +144,14 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
       balls(changed_balls(before.scene, scene_now, matches)),
       now(
           std::move(scene_now),
-          [&](const Scene& scene, const RayScene& rays, const ProgressCallback&) {
-              Atlas atlas =
-                  kept_atlas(before.scene, before.atlas, scene, matches, baked.atlas.gutter);
-              atlas.inner = inner_sides(scene, rays, atlas);
-              return atlas;
+          [&](const Scene& scene, const RayScene&, const ProgressCallback&) {
+              return kept_atlas(before.scene, before.atlas, scene, matches, baked.atlas.gutter);
           },
           [&](const Scene& scene, const RayScene& rays, const Atlas& atlas, Lumels& lumels,
               const ProgressCallback&) {
-              return as_a_bake ? mark_buried(scene, rays, atlas, lumels)
-                               : bury_anew(scene, rays, atlas, solution, lumels);
+              return as_a_bake
+                         ? mark_buried(scene, rays, with_inner_sides(scene, rays, atlas), lumels)
+                         : bury_anew(scene, rays, atlas, solution, lumels);
           }),
       same(same_lumels(*this)),
       partner(partners(*this, same))
@@ -166,7 +164,9 @@ std::vector<float> EditedScene::bury_anew(const Scene& scene, const RayScene& ra
                                           Lumels& lumels)
 {
     const std::vector<char> again = disturbed(scene, lumels, matches, balls, solution.side);
-    std::vector<float> open = mark_buried(scene, rays, atlas, lumels, again);
+    std::vector<float> open(again.size(), 1.0f);
+    if (std::ranges::find(again, 1) != again.end())
+        open = mark_buried(scene, rays, with_inner_sides(scene, rays, atlas), lumels, again);
     thinned.assign(open.size(), 1.0f);
     for (std::size_t i = 0; i < open.size(); ++i) {
         if (again[i])
