@@ -9,6 +9,7 @@
 
 #include "gpu/memory.h"
 #include "gpu/staging.h"
+#include "gpu/texture.h"
 
 namespace lumel::gpu {
 
@@ -461,6 +462,10 @@ void Device::learn_limits()
     max_image_side_ = properties.limits.maxImageDimension2D;
     max_groups_ = properties.limits.maxComputeWorkGroupCount[0];
     standard_samples_ = properties.limits.standardSampleLocations == VK_TRUE;
+    VkFormatProperties floats;
+    vkGetPhysicalDeviceFormatProperties(physical_, format_of(Pixel::rgba32), &floats);
+    can_blend_floats_ =
+        (floats.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
     timestamp_period_ = double(properties.limits.timestampPeriod);
     if (can_query_rays_) {
         VkPhysicalDeviceAccelerationStructurePropertiesKHR trees{

@@ -93,7 +93,8 @@ public:
     bool can_tessellate() const { return can_tessellate_; }  ///< supports tessellation shaders
     bool can_clip() const { return can_clip_; }              ///< supports clip distances of shaders
     bool can_read_blocks() const { return can_read_blocks_; }  ///< supports textures of Pixel::bc1
-    bool can_query_rays() const { return can_query_rays_; }    ///< supports ray queries
+    bool can_blend_floats() const { return can_blend_floats_; }  ///< blends Pixel::rgba32
+    bool can_query_rays() const { return can_query_rays_; }      ///< supports ray queries
     /// Alignment of scratch addresses for building trees [bytes].
     std::uint64_t scratch_alignment() const { return scratch_alignment_; }
     /// True if sample positions are Vulkan's standard ones.
@@ -139,7 +140,8 @@ private:
     std::uint64_t max_array_bytes_ = 0;
     std::uint32_t max_image_side_ = 0, max_groups_ = 0;
     bool can_tessellate_ = false, can_list_fragments_ = false, can_clip_ = false,
-         can_read_blocks_ = false, can_query_rays_ = false, standard_samples_ = false;
+         can_read_blocks_ = false, can_query_rays_ = false, can_blend_floats_ = false,
+         standard_samples_ = false;
     std::uint64_t scratch_alignment_ = 1;
     double timestamp_period_ = 1.0;  ///< [ns]
     std::uint64_t timestamp_mask_ = ~std::uint64_t(0);

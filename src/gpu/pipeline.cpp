@@ -123,6 +123,7 @@ Pipeline::Pipeline(Layout layout, const Stages& shaders, const RasterState& stat
     const Device& device = layout_.device();
     const RasterOptions& options = state.options;
     const bool tessellated = !shaders.control.empty();
+    const bool blends = options.blend != Blend::none;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     const auto add_stage = [&](VkShaderStageFlagBits stage, Spirv spirv) {
         if (!spirv.empty())
@@ -170,9 +171,20 @@ Pipeline::Pipeline(Layout layout, const Stages& shaders, const RasterState& stat
     const VkPipelineDepthStencilStateCreateInfo depth{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
         .depthTestEnable = options.depth_test ? VK_TRUE : VK_FALSE,
-        .depthWriteEnable = options.depth_test ? VK_TRUE : VK_FALSE,
+        .depthWriteEnable = options.depth_test && !blends ? VK_TRUE : VK_FALSE,
         .depthCompareOp = VK_COMPARE_OP_GREATER};
-    const VkPipelineColorBlendAttachmentState blend_attachment{.colorWriteMask = 0xf};
+    const VkBlendFactor source =
+        options.blend == Blend::multiply ? VK_BLEND_FACTOR_ZERO : VK_BLEND_FACTOR_ONE;
+    const VkBlendFactor behind = options.blend == Blend::multiply
+                                     ? VK_BLEND_FACTOR_SRC_COLOR
+                                     : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+    const VkPipelineColorBlendAttachmentState blend_attachment{.blendEnable =
+                                                                   blends ? VK_TRUE : VK_FALSE,
+                                                               .srcColorBlendFactor = source,
+                                                               .dstColorBlendFactor = behind,
+                                                               .srcAlphaBlendFactor = source,
+                                                               .dstAlphaBlendFactor = behind,
+                                                               .colorWriteMask = 0xf};
     const VkPipelineColorBlendStateCreateInfo blend{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
         .attachmentCount = state.has_color ? 1u : 0u,

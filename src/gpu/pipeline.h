@@ -66,11 +66,20 @@ private:
     VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 
+/// Combines a fragment with the colour behind it.
+enum class Blend {
+    none,      ///< replaces it
+    over,      ///< premultiplied by alpha: S + (1 - S_a) D
+    multiply,  ///< S D
+};
+
 /// Fixed state of a raster pass beside its shaders.
 struct RasterOptions {
     Pixel color_pixel = Pixel::srgba8;  ///< format of the colour target, if there is one
     bool depth_test = true;             ///< false: all fragments pass, and depth is not written
     std::uint32_t samples = 1;          ///< samples of its targets
+    /// Others than none write no depth. Float colours require Device::can_blend_floats.
+    Blend blend = Blend::none;
 };
 
 struct Pipeline::RasterState {

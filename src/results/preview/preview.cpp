@@ -53,6 +53,15 @@ std::uint32_t level_count(int width, int height)
     return levels;
 }
 
+/// Least opacity of fragments that are drawn as opaque ones are, if the others are blended, and if
+/// they are left out. Blended fragments are not sorted by distance.
+constexpr float kSolid = 0.95f, kSolidUnblended = 0.5f;
+
+bool is_see_through(const Material& material)
+{
+    return material.alpha_mode == AlphaMode::blend || material.transmission > 0.0f;
+}
+
 bool has_texture(const Material& material)
 {
     return material.base_color_texture.texture >= 0 || material.emissive_texture.texture >= 0;
@@ -61,7 +70,8 @@ bool has_texture(const Material& material)
 bool are_alike(const PreviewParams& a, const PreviewParams& b)
 {
     return a.camera == b.camera && a.base_color == b.base_color && a.emitted == b.emitted &&
-           a.cutoff == b.cutoff && a.back == b.back && a.shows == b.shows;
+           a.cutoff == b.cutoff && a.transmission == b.transmission && a.solid == b.solid &&
+           a.back == b.back && a.shows == b.shows;
 }
 
 }  // namespace
@@ -196,6 +206,12 @@ struct Preview::Parts {
           mesh(scene, atlas),
           streams(device, mesh)
     {
+        if (!device.can_blend_floats())
+            return;
+        film.emplace(device, gpu::RasterOptions{.color_pixel = gpu::Pixel::rgba32,
+                                                .blend = gpu::Blend::over});
+        tint.emplace(device, gpu::RasterOptions{.color_pixel = gpu::Pixel::rgba32,
+                                                .blend = gpu::Blend::multiply});
     }
 
     bool take_places(const Scene& scene);
@@ -208,6 +224,7 @@ struct Preview::Parts {
     void draw(const gpu::Raster<Shaders>& raster, const typename Shaders::Bindings& given,
               const PreviewParams& params, const gpu::Range& range);
     void record(const Scene& scene, const Drawn& what);
+    void record_see_through(const Scene& scene, const Drawn& what);
     void average(const glm::uvec2& size, float exposure, Image& image);
 
     TextureSet textures;
@@ -215,6 +232,7 @@ struct Preview::Parts {
     gpu::Raster<shaders::Preview> every;
     gpu::Raster<shaders::PreviewWhole> whole;
     gpu::Raster<shaders::PreviewPlain> plain;
+    std::optional<gpu::Raster<shaders::Preview>> film, tint;  ///< of kShowsFilm and kShowsTint
     gpu::Kernel<shaders::PreviewShrink> shrink;
     gpu::Commands commands;
     DrawnMesh mesh;
@@ -272,12 +290,18 @@ std::vector<PreviewParams> Preview::Parts::params_of(const Scene& scene, const V
     std::vector<PreviewParams> all;
     for (const auto& [key, range] : mesh.ranges()) {
         const Material& material = scene.materials[std::size_t(key.first)];
-        // Blended surfaces are drawn where opacity exceeds one half.
-        const float cutoff = material.alpha_mode == AlphaMode::opaque ? -1.0f
+        const float cutoff = material.alpha_mode == AlphaMode::blend  ? -1.0f
                              : material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff
-                                                                      : 0.5f;
-        all.push_back({camera, material.base_color, material.emitted, cutoff, key.second,
-                       shows == PreviewShows::light ? kShowsLight : kShowsMap});
+                                                                      : 0.0f;
+        const bool lit = shows == PreviewShows::light;
+        all.push_back({.camera = camera,
+                       .base_color = material.base_color,
+                       .emitted = material.emitted,
+                       .cutoff = cutoff,
+                       .transmission = material.transmission,
+                       .solid = lit && film ? kSolid : kSolidUnblended,
+                       .back = key.second,
+                       .shows = lit ? kShowsLight : kShowsMap});
     }
     return all;
 }
@@ -307,6 +331,26 @@ void Preview::Parts::draw(const gpu::Raster<Shaders>& raster,
         .draw(params, range);
 }
 
+/// Puts glass and blended surfaces in front of the rest: D' = S + (1 - opacity) tint D.
+void Preview::Parts::record_see_through(const Scene& scene, const Drawn& what)
+{
+    auto given = what.params.begin();
+    for (const auto& [key, range] : mesh.ranges()) {
+        const Material& material = scene.materials[std::size_t(key.first)];
+        PreviewParams params = *given++;
+        if (!film || params.shows != kShowsLight || !is_see_through(material))
+            continue;
+        const gpu::Range part{range.first, range.count};
+        const auto textures_of = with_textures<shaders::Preview>(material, linear);
+        if (material.transmission > 0.0f) {
+            params.shows = kShowsTint;
+            draw(*tint, textures_of, params, part);
+        }
+        params.shows = kShowsFilm;
+        draw(*film, textures_of, params, part);
+    }
+}
+
 void Preview::Parts::record(const Scene& scene, const Drawn& what)
 {
     const glm::uvec2 wide(canvas->color.width(), canvas->color.height());
@@ -316,8 +360,8 @@ void Preview::Parts::record(const Scene& scene, const Drawn& what)
         const Material& material = scene.materials[std::size_t(key.first)];
         const gpu::Range part{range.first, range.count};
         const gpu::Sampler& of_map = what.nearest ? nearest : linear;
-        const bool is_whole =
-            material.alpha_mode == AlphaMode::opaque && key.second != kBackIsAnother;
+        const bool is_whole = material.alpha_mode == AlphaMode::opaque &&
+                              material.transmission <= 0.0f && key.second != kBackIsAnother;
         if (is_whole && !has_texture(material))
             draw(plain, {.irradiance = {*lightmap, of_map}}, *params, part);
         else if (is_whole)
@@ -326,6 +370,7 @@ void Preview::Parts::record(const Scene& scene, const Drawn& what)
             draw(every, with_textures<shaders::Preview>(material, of_map), *params, part);
         ++params;
     }
+    record_see_through(scene, what);
     commands.end_pass();
 }
 

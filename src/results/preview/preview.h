@@ -39,7 +39,8 @@ public:
     /// Radiance from `view` [cd/m²], RGBA (alpha 0: no surface), `width` pixels wide (smaller if
     /// the device cannot render it). Samples the lightmap bilinearly, material textures with
     /// mipmaps. map: finished [lx], RGBA. A pixel is the mean of those of 2 × 2 samples that are on
-    /// surfaces; alpha is their share. shows: selects other content. scene: as before, except
+    /// surfaces; alpha is their share, and less where only glass is. shows: selects other content,
+    /// without surfaces that are less than half opaque. scene: as before, except
     /// transforms of instances, and colours and emission of materials. Valid until the next call.
     const Image& draw(const Scene& scene, const Image& map, const View& view, int width,
                       PreviewShows shows = PreviewShows::light);

@@ -12,15 +12,19 @@ LUMEL_CONST uint kSupersample = 2u;
 
 LUMEL_CONST uint kShowsLight = 0u;  ///< light from surfaces, L = ρ H / π + L_e
 LUMEL_CONST uint kShowsMap = 1u;    ///< the map as it is
+LUMEL_CONST uint kShowsFilm = 2u;  ///< kShowsLight × opacity; where opacity < PreviewParams::solid
+LUMEL_CONST uint kShowsTint = 3u;  ///< tint of glass; where opacity < PreviewParams::solid
 
 /// Push constants of preview.vert and preview.frag: one material.
 struct PreviewParams {
-    mat4 camera;      ///< world to clip space, reversed z
-    vec4 base_color;  ///< linear, multiplies the texture
-    vec3 emitted;     ///< [cd/m²], multiplies the texture
-    float cutoff;     ///< transparent below; < 0: opaque
-    uint back;        ///< kBackIsBlack, kBackIsAlike or kBackIsAnother
-    uint shows;       ///< kShowsLight or kShowsMap
+    mat4 camera;         ///< world to clip space, reversed z
+    vec4 base_color;     ///< linear, multiplies the texture
+    vec3 emitted;        ///< [cd/m²], multiplies the texture
+    float cutoff;        ///< covered where alpha ≥ cutoff; < 0: coverage is alpha
+    float transmission;  ///< share of glass in the covered area
+    float solid;         ///< least opacity of what hides all behind it
+    uint back;           ///< kBackIsBlack, kBackIsAlike or kBackIsAnother
+    uint shows;          ///< kShows…
 };
 
 /// Push constants of preview.shrink.comp.
