@@ -1,12 +1,10 @@
 #include "jobs/inspect/measure_picture.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "atlas/finish/finish.h"
 #include "base/core/luminance.h"
 #include "base/images/false_colour.h"
-#include "jobs/inspect/white_paper.h"
 #include "results/preview/preview.h"
 
 namespace lumel {
@@ -40,14 +38,14 @@ Image preview_picture(const gpu::Device& device, const SolveScene& prepared,
     const View view = choose_view(prepared.scene, prepared.rays);
     const Image map = finish_map(prepared.scene, prepared.atlas, prepared.lumels, irradiance);
     const Image seen =
-        render_preview(device, white_paper(prepared.scene), prepared.atlas, map, view, width);
+        render_preview(device, prepared.scene, prepared.atlas, map, view, width, PreviewShows::map);
     Image lux(seen.width, seen.height, 1);
     for (int y = 0; y < seen.height; ++y)
         for (int x = 0; x < seen.width; ++x) {
             const float* pixel = seen.at(x, y);
-            // White materials send H / π.
-            const double arriving = std::numbers::pi * luminance({pixel[0], pixel[1], pixel[2]});
-            lux.at(x, y)[0] = pixel[3] < kCoveredTexel ? kNothing : float(arriving);
+            lux.at(x, y)[0] = pixel[3] < kCoveredTexel
+                                  ? kNothing
+                                  : float(luminance({pixel[0], pixel[1], pixel[2]}));
         }
     return false_colour(lux, scale_for(lux.values));
 }

@@ -7,7 +7,6 @@
 #include "atlas/finish/finish.h"
 #include "base/core/luminance.h"
 #include "base/images/image_files.h"
-#include "jobs/inspect/white_paper.h"
 #include "results/preview/preview.h"
 
 namespace lumel {
@@ -62,12 +61,12 @@ Image why_picture(const gpu::Device& device, const SolveScene& prepared,
                   std::uint32_t lumel, int width)
 {
     const View view = choose_view(prepared.scene, prepared.rays);
-    const auto picture = [&](const Scene& scene, std::span<const glm::vec3> values) {
+    const auto picture = [&](PreviewShows shows, std::span<const glm::vec3> values) {
         const Image map = finish_map(prepared.scene, prepared.atlas, prepared.lumels, values);
-        return render_preview(device, scene, prepared.atlas, map, view, width);
+        return render_preview(device, prepared.scene, prepared.atlas, map, view, width, shows);
     };
-    Image result = tone_map(picture(prepared.scene, irradiance));
-    const Image layers = picture(white_paper(prepared.scene), layers_of(prepared, density, lumel));
+    Image result = tone_map(picture(PreviewShows::light, irradiance));
+    const Image layers = picture(PreviewShows::map, layers_of(prepared, density, lumel));
     for (int y = 0; y < result.height; ++y)
         for (int x = 0; x < result.width; ++x) {
             float* pixel = result.at(x, y);
