@@ -199,8 +199,13 @@ TEST(Resume, RefusesACheckpointOfOtherWorkOrADamagedOne)
         more.emplace_back("--resume");
         return run_lumel(resumable(place.path("out"), {.error = error, .more = more}));
     };
-    expect_one_sentence(resume("0.002", {}), 2, {".lumel-checkpoint", "options"});
-    expect_one_sentence(resume("0.001", {"--sky", "1,1,1"}), 2, {".lumel-checkpoint", "scene"});
+    const auto expect_named = [&](const Outcome& outcome, const std::string& options) {
+        expect_one_sentence(outcome, 2, {".lumel-checkpoint", "other options: " + options + ";"});
+    };
+    expect_named(resume("0.002", {}), "--error");
+    expect_named(resume("0.001", {"--sky", "1,1,1"}), "--sky");
+    expect_named(resume("0.002", {"--sun", "10,20", "--time", "100", "--pages", "2"}),
+                 "--error, --pages, --sun, --time");
     expect_one_sentence(resume("0.001", {"--solver", "stochastic"}), 2,
                         {"--resume", "stochastic", "links"});
     std::string damaged = checkpoint;

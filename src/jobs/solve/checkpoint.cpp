@@ -5,6 +5,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,6 +19,7 @@
 #include "methods/methods.h"
 #include "results/files/folder.h"
 #include "results/record/bake_record.h"
+#include "results/record/light_settings.h"
 #include "results/record/origin.h"
 #include "results/record/solver_settings.h"
 
@@ -24,24 +28,59 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kMagic[] = "lumel checkpoint 3\n";
+constexpr char kMagic[] = "lumel checkpoint 4\n";
 /// Writing takes at most 1 / kRest of the time.
 constexpr double kRest = 20.0;
 
-/// All settings of the solver, without the scene and its lights.
+/// All settings that the light depends on.
 std::string settings_of(const BakeOptions& options)
 {
     Json settings;
     settings["solver"] = solver_settings(options.solver);
     settings["atlas"] = atlas_settings(options.atlas);
-    settings["parts"] = int(options.parts);
+    settings["lights"] = light_settings(options.lights);
+    settings["only"] = int(options.parts);
     if (const auto* links = std::get_if<LinksOptions>(&options.solver.method)) {
         settings["links"] = links->even_rays;
         settings["per-lamp"] = links->per_lamp;
         for (const LampGroup& group : links->groups)
-            settings["groups"].push_back({group.name, group.pattern});
+            settings["group"].push_back({group.name, group.pattern});
     }
     return json_text(settings);
+}
+
+/// The option of a setting, by its JSON pointer from settings_of().
+std::string option_of(const std::string& pointer)
+{
+    static constexpr std::string_view kGroups[] = {
+        "/lights/", "/atlas/", "/solver/limits/", "/solver/options/", "/solver/", "/"};
+    static constexpr std::pair<std::string_view, std::string_view> kNames[] = {
+        {"method", "solver"},     {"seconds", "time"},          {"dark_error", "dark-error"},
+        {"eye_error", "quality"}, {"visible_noise", "quality"},
+    };
+    const auto group = std::ranges::find_if(
+        kGroups, [&](std::string_view start) { return pointer.starts_with(start); });
+    const std::string rest = pointer.substr(group->size());
+    std::string_view name = std::string_view(rest).substr(0, rest.find('/'));
+    for (const auto& [setting, option] : kNames)
+        if (name == setting)
+            name = option;
+    return "--" + std::string(name);
+}
+
+/// "--error, --sky": options of two settings_of() that differ. Null stands for an empty group.
+std::string changed_options(const std::string& one, const std::string& other)
+{
+    const Json a = Json::parse(one).flatten(), b = Json::parse(other).flatten();
+    std::set<std::string> names;
+    for (const auto& [from, to] : {std::pair(&a, &b), std::pair(&b, &a)})
+        for (const auto& [pointer, value] : from->items())
+            if (!value.is_null() && (!to->contains(pointer) || to->at(pointer) != value))
+                names.insert(option_of(pointer));
+    std::string list;
+    for (const std::string& name : names)
+        list += (list.empty() ? "" : ", ") + name;
+    return list;
 }
 
 /// Throws Error{input} if the file does not start like a checkpoint.
@@ -103,12 +142,16 @@ Checkpoint::Run Checkpoint::take_up(Solver& solver)
     StateReader reader(file, size - sizeof kMagic, path_);
     Origin origin;
     reader(origin);
+    if (origin.version == origin_.version && origin.options != origin_.options)
+        throw Error(ErrorKind::input, path_,
+                    fmt::format("is from a bake with other options: {}; give those of that bake, "
+                                "or bake without --resume",
+                                changed_options(origin.options, origin_.options)));
     if (!(origin == origin_)) {
         const char* other = origin.version != origin_.version ? "version of Lumel"
                             : origin.scene != origin_.scene
                                 ? "scene, or an earlier version of this one"
-                            : origin.options != origin_.options ? "set of options"
-                                                                : "ray tracing backend (--rays)";
+                                : "ray tracing backend (--rays)";
         throw Error(
             ErrorKind::input, path_,
             fmt::format("is from another {}; continue with that one, or bake without --resume",
