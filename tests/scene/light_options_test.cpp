@@ -150,6 +150,49 @@ TEST(LightOptions, SizesAreForLightsThatHaveNone)
     EXPECT_EQ(scene.lights[2].radius, 0.0f);
 }
 
+TEST(LightOptions, ThoseWithoutEffectGiveAWarning)
+{
+    LightOptions scale, rotation, angle, radius;
+    scale.sky_scale = 2.0f;
+    rotation.sky_rotation = 1.0;
+    angle.sun_angle = 0.01f;
+    radius.light_radius = 0.2f;
+    const auto warnings = [](Scene scene, const LightOptions& options) {
+        add_lights(scene, options);
+        return scene.warnings;
+    };
+    const auto expect_idle = [&](const LightOptions& options, const std::string& name) {
+        const std::vector<std::string> dark = warnings({}, options);
+        ASSERT_EQ(dark.size(), 1u) << name;
+        EXPECT_TRUE(dark.front().starts_with(name + " has no effect: ")) << dark.front();
+        Scene with_sizes = with_lights();
+        for (PunctualLight& light : with_sizes.lights)
+            light.radius = light.angle = 0.1f;
+        EXPECT_EQ(warnings(with_sizes, options), dark);
+    };
+    expect_idle(scale, "--sky-scale");
+    expect_idle(rotation, "--sky-rotation");
+    expect_idle(angle, "--sun-angle");
+    expect_idle(radius, "--light-radius");
+    set_sky(rotation, "overcast");
+    expect_idle(rotation, "--sky-rotation");
+    set_sky(rotation, "1,2,3");
+    expect_idle(rotation, "--sky-rotation");
+
+    set_sky(scale, "1,2,3");
+    set_sun(rotation, "90,30");
+    EXPECT_EQ(warnings({}, scale), std::vector<std::string>());
+    EXPECT_EQ(warnings({}, rotation), std::vector<std::string>());
+    EXPECT_EQ(warnings(with_lights(), angle), std::vector<std::string>());
+    EXPECT_EQ(warnings(with_lights(), radius), std::vector<std::string>());
+    LightOptions turned_sky;
+    set_sky(turned_sky, "cie:12@90,30");
+    turned_sky.sky_rotation = 1.0;
+    EXPECT_EQ(warnings({}, turned_sky), std::vector<std::string>());
+    set_sun(angle, "90,30");
+    EXPECT_EQ(warnings({}, angle), std::vector<std::string>());
+}
+
 TEST(LightOptions, ASunOfAPlaceAndTimeIsKeptAsItWasGiven)
 {
     LightOptions options;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string_view>
 
 #include <glm/gtc/constants.hpp>
@@ -122,6 +123,20 @@ CieSky placed(CieSky sky, const std::optional<SunPosition>& sun)
     return sky;
 }
 
+void warn_of_idle(Scene& scene, const std::string& option, const std::string& reason)
+{
+    scene.warnings.push_back(option + " has no effect: " + reason);
+}
+
+/// True if a rotation about +y changes the sky.
+bool varies_with_azimuth(const Sky& sky)
+{
+    for (auto row = sky.radiance.begin(); row != sky.radiance.end(); row += sky.width)
+        if (std::adjacent_find(row, row + sky.width, std::not_equal_to<>()) != row + sky.width)
+            return true;
+    return false;
+}
+
 /// The sun after --sky-rotation; azimuths are clockwise.
 SunPosition placed_sun(const LightOptions& options)
 {
@@ -141,8 +156,14 @@ void add_sky(Scene& scene, const LightOptions& options)
         scene.sky = image_of(placed(*options.cie, options.sun));
     else if (options.sun)
         scene.sky = clear_sky(*options.sun);
-    if (options.sky_rotation != 0.0)
+    if (options.sky_rotation != 0.0) {
+        if (!options.sun && !varies_with_azimuth(scene.sky))
+            warn_of_idle(scene, "--sky-rotation",
+                         "there is no --sun, and no sky that varies with azimuth");
         scene.sky = turned(scene.sky, options.sky_rotation);
+    }
+    if (options.sky_scale != 1.0f && scene.sky.empty())
+        warn_of_idle(scene, "--sky-scale", "there is no sky");
     for (glm::vec3& radiance : scene.sky.radiance)
         radiance *= options.sky_scale;
 }
@@ -159,8 +180,23 @@ void add_sun(Scene& scene, const LightOptions& options)
 
 void give_sizes(Scene& scene, const LightOptions& options)
 {
+    const auto is_sun = [](const PunctualLight& light) {
+        return light.kind == PunctualLight::Kind::directional;
+    };
+    const bool sun_takes_angle = std::ranges::any_of(scene.lights, [&](const PunctualLight& light) {
+        return is_sun(light) && light.angle <= 0.0f;
+    });
+    if (options.sun_angle && !options.sun && !sun_takes_angle)
+        warn_of_idle(scene, "--sun-angle",
+                     "there is no --sun, and no directional light without an "
+                     "angle");
+    const bool takes_radius = std::ranges::any_of(scene.lights, [&](const PunctualLight& light) {
+        return !is_sun(light) && light.radius <= 0.0f;
+    });
+    if (options.light_radius > 0.0f && !takes_radius)
+        warn_of_idle(scene, "--light-radius", "there is no point or spot light without a radius");
     for (PunctualLight& light : scene.lights) {
-        if (light.kind == PunctualLight::Kind::directional)
+        if (is_sun(light))
             light.angle = light.angle > 0.0f ? light.angle : options.sun_angle.value_or(0.0f);
         else
             light.radius = light.radius > 0.0f ? light.radius : options.light_radius;
