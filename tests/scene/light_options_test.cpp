@@ -325,6 +325,8 @@ TEST(LightOptions, MistakesAreNamed)
     EXPECT_TRUE(contains(input_error_of([&] { set_sky(options, "1,2"); }), "--sky"));
     EXPECT_TRUE(contains(input_error_of([&] { set_sky(options, "1,-2,1"); }), "0 or more"));
     EXPECT_TRUE(contains(input_error_of([&] { set_sky(options, "1e39,0,0"); }), "too bright"));
+    for (const char* text : {"", "nan", "nan,1,1", "inf,1,1", "1e400,1,1", "1,1,1e400", "sky.png"})
+        EXPECT_TRUE(contains(input_error_of([&] { set_sky(options, text); }), "R,G,B")) << text;
     for (const char* text : {"", "1", "1,x", "1,2,3", "1,2,3,4", "1,91", "91,0,2024-06-21T12:00",
                              "0,181,2024-06-21T12:00"})
         EXPECT_NE(input_error_of([&] { set_sun(options, text); }), "") << text;

@@ -319,13 +319,14 @@ void set_sky(LightOptions& options, const std::string& text)
     for (const std::string& part : parts)
         if (const auto value = number_of(part))
             values.push_back(*value);
-    if (values.size() != parts.size()) {
+    if (values.size() != parts.size() && is_sky_file(text)) {
         options.sky_file = text;
         return;
     }
-    if (values.size() != 3 || *std::min_element(values.begin(), values.end()) < 0.0)
-        refuse("--sky",
-               quoted(text) + " is neither a file nor three numbers R,G,B of 0 or more in cd/m2");
+    if (values.size() != parts.size() || values.size() != 3 ||
+        *std::min_element(values.begin(), values.end()) < 0.0)
+        refuse("--sky", quoted(text) + " is neither an .exr or .hdr file, nor three numbers R,G,B "
+                                       "of 0 or more in cd/m2, nor overcast or cie:N");
     if (*std::max_element(values.begin(), values.end()) > double(kMaxLuminance))
         refuse("--sky", quoted(text) + " is too bright: there is no such sky");
     options.sky_color = glm::vec3(values[0], values[1], values[2]);

@@ -45,6 +45,12 @@ float light_of(float value)
 
 }  // namespace
 
+bool is_sky_file(const std::string& path)
+{
+    const std::string extension = lower_extension(path);
+    return extension == ".exr" || extension == ".hdr";
+}
+
 Sky read_sky(const std::string& path)
 {
     const Image image = read_image(path);
