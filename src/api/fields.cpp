@@ -31,6 +31,7 @@ const std::map<std::string, std::string, std::less<>> kFields = {
     {"sides", "AtlasSettings::sides"},
     {"size", "AtlasSettings::size"},
     {"sky", "Scene::add_daylight"},
+    {"sky-rotation", "Daylight::rotation"},
     {"sky-scale", "Daylight::sky_scale"},
     {"solver", "BakeSettings::method"},
     {"sun", "Daylight::sun"},

@@ -323,6 +323,16 @@ TEST(Warnings, TellOfScenesWithoutLight)
     EXPECT_NE(baked.notes[0].find("nothing in the scene gives light"), std::string::npos);
 }
 
+TEST(Warnings, NameFieldsOfDaylightWithoutEffect)
+{
+    Scene scene(furnace());
+    scene.add_daylight({.sky_scale = 2.0f, .rotation = 1.0});
+    const std::vector<std::string> warnings = scene.warnings();
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_TRUE(warnings[0].starts_with("Daylight::rotation has no effect")) << warnings[0];
+    EXPECT_TRUE(warnings[1].starts_with("Daylight::sky_scale has no effect")) << warnings[1];
+}
+
 TEST(Warnings, ReachOneFunction)
 {
     std::vector<std::string> heard;
