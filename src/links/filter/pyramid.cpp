@@ -33,9 +33,13 @@ constexpr float kUnlikeCells = 8.0f;
 /// Averages of a level over cells nearby.
 struct Moments {
     float signal = 0.0f, mean = 0.0f, bound = 0.0f, count = 0.0f;
+    /// The most that one cell adds to the signal. Among many cells, chance makes a few bright in
+    /// all estimates; they would pass for detail.
+    float strongest = 0.0f;
 
     Moments& operator+=(const Moments& other)
     {
+        strongest = std::max(strongest, other.strongest);
         signal += other.signal;
         mean += other.mean;
         bound += other.bound;
@@ -45,7 +49,7 @@ struct Moments {
     float noise() const { return std::max(mean - signal, 0.0f); }
     Moments operator*(float factor) const
     {
-        return {factor * signal, factor * mean, factor * bound, factor * count};
+        return {factor * signal, factor * mean, factor * bound, factor * count, factor * strongest};
     }
 };
 
@@ -116,35 +120,21 @@ float wiener(float signal, float noise)
     return signal + noise > 0.0f ? signal / (signal + noise) : 1.0f;
 }
 
-/// The most that a cell, or one next to it, adds to the signal of a window about it. Among many
-/// cells, chance makes a few bright in all estimates; they would pass for detail. bell: weights by
-/// squared distance.
-float strongest_about(const std::vector<Moments>& cells, int width, int height, int x, int y,
-                      const std::array<float, 3>& bell)
-{
-    float most = 0.0f;
-    for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, height - 1); ++ny)
-        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, width - 1); ++nx) {
-            const int squared = (nx - x) * (nx - x) + (ny - y) * (ny - y);
-            const std::size_t cell = std::size_t(ny) * std::size_t(width) + std::size_t(nx);
-            most = std::max(most, cells[cell].signal * bell[std::size_t(squared)]);
-        }
-    return most;
-}
-
-/// next: sums over the window for local noise. strongest: see strongest_about().
-float gain_of(const Moments& sums, const Moments& next, float strongest, const PyramidRule& rule,
-              float caution)
+/// next: sums over the window for local noise.
+float gain_of(const Moments& sums, const Moments& next, const PyramidRule& rule, float caution)
 {
     const float scale = next.count > 0.0f ? sums.count / next.count : 0.0f;
     const Moments here = next.count > 0.0f ? next * scale : sums;
     const float most = rule.is_bounded ? kMostDetail * kMostDetail * sums.bound : kUnbounded,
                 least = rule.is_bounded ? kLeastDetail * kLeastDetail * sums.bound : 0.0f;
-    const bool is_lone = !(sums.signal > kTellingCaution * sums.noise());
-    const float stands_out = is_lone ? here.signal - scale * strongest - kLoneCaution * here.noise()
-                                     : here.signal - kLocalCaution * here.noise();
+    const float doubted = rule.doubts_single_cells ? 1.0f : 0.0f;
+    const bool is_lone = !(sums.signal - doubted * sums.strongest > kTellingCaution * sums.noise());
+    const float stands_out =
+        is_lone ? here.signal - here.strongest - kLoneCaution * here.noise()
+                : here.signal - doubted * here.strongest - kLocalCaution * here.noise();
     const float local = std::clamp(stands_out, 0.0f, most),
-                wide = std::clamp(sums.signal - strongest - caution * sums.noise(), least, most);
+                wide =
+                    std::clamp(sums.signal - sums.strongest - caution * sums.noise(), least, most);
     return rule.has_local_noise ? wiener(std::max(wide, local), here.noise())
                                 : std::max(wiener(wide, sums.noise()), wiener(local, here.noise()));
 }
@@ -206,24 +196,18 @@ std::vector<float> gains_of(const FilterChart& chart, const FitLevel<Count>& lev
                 octaves[cell] += std::clamp(-std::log2(std::max(chart.nearness[t], 1e-9f)), 0.0f,
                                             float(kDistanceClasses - 1));
         }
-    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
         octaves[cell] /= std::max(cells[cell].count, 1.0f);
+        if (level.side <= kFewLumels)
+            cells[cell].strongest = std::max(cells[cell].signal, 0.0f);
+    }
     std::vector<Moments> next = cells;
     blur(next, level.width, level.height, rule.noise_spread);
     const std::vector<Moments> wide = averaged(cells, octaves, level.width, level.height,
                                                level.side == 1 ? kFinestGainSpread : kGainSpread);
     std::vector<float> gains(cells.size());
-    const std::array<float, 3> bell = {1.0f, bell_at(1.0f, rule.noise_spread),
-                                       bell_at(2.0f, rule.noise_spread)};
-    for (int y = 0; y < level.height; ++y)
-        for (int x = 0; x < level.width; ++x) {
-            const std::size_t cell = level.at(x, y);
-            const float strongest =
-                level.side > kFewLumels
-                    ? 0.0f
-                    : strongest_about(cells, level.width, level.height, x, y, bell);
-            gains[cell] = gain_of(wide[cell], next[cell], strongest, rule, caution);
-        }
+    for (std::size_t cell = 0; cell < gains.size(); ++cell)
+        gains[cell] = gain_of(wide[cell], next[cell], rule, caution);
     return gains;
 }
 
@@ -251,7 +235,8 @@ PyramidRule rule_of_indirect()
     return {.caution = kCautionIndirect,
             .is_bounded = true,
             .noise_spread = kNoiseSpreadIndirect,
-            .has_local_noise = false};
+            .has_local_noise = false,
+            .doubts_single_cells = true};
 }
 
 PyramidRule rule_of_direct()
@@ -259,7 +244,8 @@ PyramidRule rule_of_direct()
     return {.caution = kCautionDirect,
             .is_bounded = false,
             .noise_spread = kNoiseSpreadDirect,
-            .has_local_noise = true};
+            .has_local_noise = true,
+            .doubts_single_cells = false};
 }
 
 namespace {

@@ -28,6 +28,9 @@ struct PyramidRule {
     /// Averages noise over that window alone: beside a noisy penumbra, lumels that see all of the
     /// light or none of it are exact.
     bool has_local_noise;
+    /// Keeps no detail of a single cell: rays of all estimates may have met the same small light by
+    /// chance.
+    bool doubts_single_cells;
 };
 
 /// Indirect light, which varies over distances like those to its senders; and direct light, whose
@@ -53,8 +56,8 @@ struct Filtered {
 /// T is signal, as noise of different estimates is independent, and ν the noise of their mean, both
 /// averaged over cells nearby, of indirect light over those as far from other geometry [CPD07]; ν
 /// of direct light over the next cells only: an empirical Wiener filter. On the two finest
-/// levels T leaves out the strongest cell. Of indirect light β is at least that of the next cells
-/// alone, with a caution of 3, or of 5 without that cell where there is no signal around. All
+/// levels T leaves out the strongest cell. β is at least that of the next cells alone, with a caution
+/// of 3, or of 5 where there is no signal around, and of indirect light without that cell. All
 /// estimates have the same gains.
 template <std::size_t Count>
 Filtered<Count> filter_chart(const FilterChart& chart,

@@ -162,6 +162,27 @@ TEST(Pyramid, LumelsWhoseHalvesAgreeByChanceDoNotStandOut)
 }
 
 /// A dark gap between things, whose lumels have many rays, close to bright and noisy ones.
+/// Of 32 rays of a lumel, sometimes one meets a patch of sun. A few lumels have it in all
+/// solutions.
+TEST(Pyramid, RaysThatMeetTheSunByChanceMakeNoSpecks)
+{
+    constexpr float kChance = 0.12f, kSun = 1.8f;
+    FilterChart chart = flat_chart();
+    chart.nearness.assign(chart.lumel.size(), 0.3f);
+    double brightest = 0.0;
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+        std::mt19937 random(seed);
+        std::bernoulli_distribution meets_sun(kChance);
+        Solutions found = solutions_of(even, kNoise, seed);
+        for (Estimates& of : found)
+            for (glm::vec3& light : of)
+                light += meets_sun(random) ? kSun : 0.0f;
+        const std::vector<float> mean = filtered(chart, found);
+        brightest = std::max(brightest, double(*std::ranges::max_element(mean)));
+    }
+    EXPECT_LT(brightest, 4.0 / 3.0 * double(1.0f + kChance * kSun));
+}
+
 TEST(Pyramid, LightOfManyRaysBesideNoisyLumelsStays)
 {
     const auto gap = [](int x, int) { return x < 48 ? 4.0f : x < 54 || x >= 58 ? 1.0f : 0.5f; };
