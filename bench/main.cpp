@@ -61,6 +61,15 @@ void add_other_modes(CLI::App& app, Settings& settings)
     app.add_option("--seams", settings.seams,
                    "writes a picture of the map's seams before and after they are matched instead")
         ->type_name("FILE.png");
+    app.add_option(
+           "--ranks", settings.ranks,
+           "predicts instead what a bake takes on up to 1,000 machines, from the reports of "
+           "two bakes of a scene: by one process, and by several")
+        ->delimiter(',')
+        ->type_name("ONE.json,SEVERAL.json");
+    app.add_option("--cores", settings.cores, "of each of those machines")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     app.add_option("--from", settings.from, "eye of that picture, and what it looks at [m]")
         ->delimiter(',')
         ->expected(6)
@@ -155,6 +164,8 @@ int main(int argc, char** argv)
             time_moves(settings);
         else if (settings.casters)
             time_casters(settings);
+        else if (!settings.ranks.empty())
+            predict_ranks(settings);
         else if (!settings.seams.empty())
             show_seams(settings);
         else if (!settings.growth.empty())

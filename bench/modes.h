@@ -32,6 +32,9 @@ void time_casters(const Settings& settings);
 /// Time of sweeps over links, by the host and by the device.
 void time_sweeps(const gpu::Device& device, const SolveScene& world);
 
+/// Time, memory and efficiency of a bake on many machines, predicted from reports of two bakes.
+void predict_ranks(const Settings& settings);
+
 /// Seams of the map before and after they are matched, as numbers and as a picture.
 void show_seams(const Settings& settings);
 

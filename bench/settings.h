@@ -48,6 +48,8 @@ struct Settings {
     std::string moves;                ///< instead: a thing of which moves are timed
     bool casters = false;             ///< instead: rays per second of each caster
     std::string seams;                ///< instead: PNG of seams before and after
+    std::vector<std::string> ranks;   ///< instead: reports of a bake by one process and by several
+    double cores = 16.0;              ///< of each machine that --ranks predicts for
     std::vector<float> from;          ///< eye and what it looks at [m]; empty: the preview's view
     std::uint32_t edit_rays = 64;     ///< of a lumel of such a scene
     /// Solutions of 256 rays whose mean its light is compared with; 0: not.
