@@ -56,9 +56,9 @@ struct Filtered {
 /// T is signal, as noise of different estimates is independent, and ν the noise of their mean, both
 /// averaged over cells nearby, of indirect light over those as far from other geometry [CPD07]; ν
 /// of direct light over the next cells only: an empirical Wiener filter. On the two finest
-/// levels T leaves out the strongest cell. β is at least that of the next cells alone, with a caution
-/// of 3, or of 5 where there is no signal around, and of indirect light without that cell. All
-/// estimates have the same gains.
+/// levels T leaves out the strongest cell. β is at least that of the next cells alone, with a
+/// caution of 3, or of 5 where there is no signal around, and of indirect light without that cell.
+/// All estimates have the same gains.
 template <std::size_t Count>
 Filtered<Count> filter_chart(const FilterChart& chart,
                              const std::array<const Estimates*, Count>& found,
