@@ -75,6 +75,13 @@ TEST(Advice, NamesAGroundThatTakesTheLumels)
     EXPECT_EQ(advice(SolveScene(scene, chosen), chosen), Sentences());
 }
 
+TEST(Advice, LeavesARoomAloneWhoseObjectsFillIt)
+{
+    Scene scene = tables(10.0f);
+    add(scene, "table", 2.0f, {7.0f, 1.0f, 7.0f});
+    EXPECT_EQ(advice_on(scene), Sentences());
+}
+
 TEST(Advice, TellsOfBackSides)
 {
     const AtlasOptions options{.size = 64, .sides = Sides::both};

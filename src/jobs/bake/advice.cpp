@@ -1,9 +1,11 @@
 #include "jobs/bake/advice.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "atlas/near/still_part.h"
 #include "base/core/luminance.h"
 #include "jobs/bake/seen_backs.h"
 #include "scene/values/sky.h"
@@ -14,6 +16,8 @@ namespace {
 
 /// Above these fractions of the lumels, advice is given on an object, and on back sides.
 constexpr double kMuch = 0.6, kManyBacks = 0.4;
+/// Of an object's area from above, what others stand on if it reaches far beyond them.
+constexpr double kSmallPart = 0.25;
 /// Scenes of fewer objects get no advice on them.
 constexpr std::size_t kFewObjects = 4;
 constexpr std::size_t kMostSentences = 3;
@@ -36,6 +40,30 @@ std::string percent(double fraction)
     return fmt::format("{:.0f} %", 100.0 * fraction);
 }
 
+/// Area of a box seen from above [m²].
+double area_from_above(const MovedBox& box)
+{
+    const glm::dvec3 size = glm::max(box.high - box.low, glm::vec3(0.0f));
+    return size.x * size.z;
+}
+
+/// True if all other objects stand on a small part of this one, as a house on its lawn; not if it
+/// is the room that they stand in.
+bool reaches_far_beyond(const Scene& scene, std::uint32_t instance)
+{
+    constexpr float kFar = std::numeric_limits<float>::max();
+    MovedBox others{glm::vec3(kFar), glm::vec3(-kFar)};
+    const auto box = [&](std::uint32_t i) {
+        return box_of(scene, i, scene.instances[i].transform);
+    };
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+        if (i != instance) {
+            others.low = glm::min(others.low, box(i).low);
+            others.high = glm::max(others.high, box(i).high);
+        }
+    return area_from_above(others) < kSmallPart * area_from_above(box(instance));
+}
+
 /// The object with most lumels, if it has too many.
 std::string of_objects(const SolveScene& prepared, const AtlasOptions& chosen)
 {
@@ -48,8 +76,9 @@ std::string of_objects(const SolveScene& prepared, const AtlasOptions& chosen)
         ++lumels[lumel.instance];
     const auto most = std::max_element(lumels.begin(), lumels.end());
     const double share = double(*most) / double(prepared.lumels.lumels.size());
-    const std::string& name = instances[std::size_t(most - lumels.begin())].name;
-    if (!(share > kMuch) || name.empty())
+    const auto largest = std::uint32_t(most - lumels.begin());
+    const std::string& name = instances[largest].name;
+    if (!(share > kMuch) || name.empty() || !reaches_far_beyond(prepared.scene, largest))
         return {};
     return fmt::format("\"{}\" has {} of the lumels; --coarse-afar or --density \"{}={:.3g}\" "
                        "leaves more of them to the rest",

@@ -12,8 +12,8 @@
 namespace lumel {
 
 /// Up to three sentences of advice, each with what helps: on an object that is inside out; on a sky
-/// that is far too dark beside the sun; on an object with most of the lumels, unless densities are
-/// chosen; and on back sides.
+/// that is far too dark beside the sun; on an object with most of the lumels that reaches far
+/// beyond all others, unless densities are chosen; and on back sides.
 std::vector<std::string> advice(const SolveScene& prepared, const AtlasOptions& chosen);
 
 /// A sentence on where noise is still seen, at most three names; empty if nothing has one.
