@@ -5,17 +5,6 @@
 namespace lumel {
 namespace {
 
-/// One value per texel, that of its visible lumel.
-Image layer_map(const std::vector<std::uint32_t>& shown, const Image& light,
-                const std::vector<glm::vec3>& values)
-{
-    Image map = light;  // copies its alpha
-    for (std::size_t texel = 0; texel < shown.size(); ++texel)
-        for (int c = 0; c < 3 && shown[texel] != kNoLumel; ++c)
-            map.values[texel * 4 + std::size_t(c)] = values[shown[texel]][c];
-    return map;
-}
-
 /// Map of one side. `other`: the flag of lumels of the other side, kLumelBack or 0.
 Image side_map(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
                std::span<const glm::vec3> values, std::uint32_t other)
@@ -58,10 +47,10 @@ FinishedMaps finish_maps(const Scene& scene, const Atlas& atlas, const Lumels& l
                          std::span<const glm::vec3> light,
                          std::span<const std::vector<glm::vec3>> layers)
 {
-    FinishedMaps maps{to_map(lumels, light), {}};
     const std::vector<std::uint32_t> shown = shown_lumels(lumels, light);
+    FinishedMaps maps{to_map(lumels, shown, light), {}};
     for (const std::vector<glm::vec3>& values : layers)
-        maps.layers.push_back(layer_map(shown, maps.light, values));
+        maps.layers.push_back(to_map(lumels, shown, values));
     fill_buried(maps.light, lumels, shown, maps.layers);
     dilate(maps.light);
     for (Image& layer : maps.layers)

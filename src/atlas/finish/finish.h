@@ -47,6 +47,9 @@ std::vector<std::uint32_t> shown_lumels(const Lumels& lumels, std::span<const gl
 /// open lumels; equal sides show the front. With Lumels::shows_front they show the front. values
 /// [N]: per lumel, e.g. irradiance [lx].
 Image to_map(const Lumels& lumels, std::span<const glm::vec3> values);
+/// The same for the lumels of `shown`, by shown_lumels().
+Image to_map(const Lumels& lumels, std::span<const std::uint32_t> shown,
+             std::span<const glm::vec3> values);
 
 /// Fills buried lumels with the light of their nearest open neighbours in the same chart, so that
 /// filtering neither darkens nor leaks. Wholly buried charts are unchanged. shown: by

@@ -71,7 +71,12 @@ std::vector<std::uint32_t> shown_lumels(const Lumels& lumels, std::span<const gl
 
 Image to_map(const Lumels& lumels, std::span<const glm::vec3> values)
 {
-    const std::vector<std::uint32_t> shown = shown_lumels(lumels, values);
+    return to_map(lumels, shown_lumels(lumels, values), values);
+}
+
+Image to_map(const Lumels& lumels, std::span<const std::uint32_t> shown,
+             std::span<const glm::vec3> values)
+{
     Image map(lumels.width, lumels.height, 4);
     for (std::size_t i = 0; i < shown.size(); ++i) {
         if (shown[i] == kNoLumel)

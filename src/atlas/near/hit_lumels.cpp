@@ -4,14 +4,20 @@
 
 namespace lumel {
 
+std::vector<std::size_t> first_surfaces(const Atlas& atlas, std::size_t instances)
+{
+    std::vector<std::size_t> first(instances, 0);
+    for (std::size_t s = atlas.surfaces.size(); s-- > 0;)
+        first[atlas.surfaces[s].instance] = s;
+    return first;
+}
+
 HitLumels::HitLumels(const Scene& scene, const Atlas& atlas, const Lumels& lumels)
     : atlas_(&atlas),
-      first_surface_(scene.instances.size(), 0),
+      first_surface_(first_surfaces(atlas, scene.instances.size())),
       front_(std::size_t(lumels.width) * std::size_t(lumels.height), kNone),
       back_(front_)
 {
-    for (std::size_t s = atlas.surfaces.size(); s-- > 0;)
-        first_surface_[atlas.surfaces[s].instance] = s;
     for (const Surface& surface : atlas.surfaces) {
         first_triangle_.push_back(corners_.size());
         for (std::size_t k = 0; k + 2 < surface.indices.size(); k += 3)

@@ -9,6 +9,9 @@
 
 namespace lumel {
 
+/// [instances] Index of each instance's first surface, 0 if it has none.
+std::vector<std::size_t> first_surfaces(const Atlas& atlas, std::size_t instances);
+
 class HitLumels {
 public:
     /// The atlas must outlive this.

@@ -58,8 +58,9 @@ bool reaches_far_beyond(const Scene& scene, std::uint32_t instance)
     };
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
         if (i != instance) {
-            others.low = glm::min(others.low, box(i).low);
-            others.high = glm::max(others.high, box(i).high);
+            const MovedBox other = box(i);
+            others.low = glm::min(others.low, other.low);
+            others.high = glm::max(others.high, other.high);
         }
     return area_from_above(others) < kSmallPart * area_from_above(box(instance));
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "atlas/lumels/sides.h"
+#include "atlas/near/hit_lumels.h"
 #include "base/core/error.h"
 
 namespace lumel {
@@ -231,10 +232,7 @@ Atlas written_atlas(const Scene& scene, const Pages& pages, float texels_per_met
 Atlas kept_atlas(const Scene& before, const Atlas& atlas, const Scene& after,
                  const Matches& matches, int gutter)
 {
-    std::vector<std::size_t> first(before.instances.size(), 0);
-    for (std::size_t s = atlas.surfaces.size(); s-- > 0;)
-        first[atlas.surfaces[s].instance] = s;
-
+    const std::vector<std::size_t> first = first_surfaces(atlas, before.instances.size());
     Atlas kept = atlas;
     kept.surfaces.clear();
     bool any_new = false;

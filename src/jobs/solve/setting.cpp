@@ -137,7 +137,7 @@ private:
     std::uint64_t next_ = 0;
 };
 
-/// What a rank wants to do after a step.
+/// Whether a rank goes on after a step, and whether it is time for a checkpoint.
 struct Wish {
     double seconds;  ///< of solving so far
     bool wants_more, wants_checkpoint;
