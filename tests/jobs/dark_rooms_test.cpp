@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "../support/box_lumels.h"
+#include "../support/lamps.h"
 #include "links/trace/links.h"
 #include "solved.h"
 #include "truth/reference.h"
@@ -224,6 +225,63 @@ TEST(LampBelowACeiling, DoesNotLightTheNextRoomByItsGap)
             wanted += double(world.lumels.lumels[i].area) * double(truth[i].g);
         }
         EXPECT_NEAR(found / wanted, 1.0, 0.015) << gap << " m";
+    }
+}
+
+/// A cube of 1 m whose front is a blind in the sun, of slats that overlap: all light in it comes
+/// from their lower sides, which the slats below light unevenly.
+Scene room_behind_a_blind()
+{
+    constexpr int kSlats = 40;
+    constexpr float kPitch = 1.0f / float(kSlats);
+    constexpr glm::vec3 kX(1.0f, 0.0f, 0.0f), kY(0.0f, 1.0f, 0.0f), kZ(0.0f, 0.0f, 1.0f);
+    Scene scene;
+    const auto add = [&](const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
+        support::add_quad(scene, {.corner = corner, .edge_u = u, .edge_v = v, .albedo = kGrey});
+    };
+    add({}, kZ, kX);
+    add(kY, kX, kZ);
+    add(kZ, kY, kX);
+    add({}, kY, kZ);
+    add(kX, kZ, kY);
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+    for (int k = 0; k < kSlats; ++k) {
+        const glm::vec3 edge = kPitch * float(k) * kY;
+        const glm::vec3 across(0.0f, 0.56f * kPitch, 0.8f * kPitch);
+        const auto first = std::uint32_t(positions.size());
+        for (const glm::vec3& corner : {edge - across, edge - across + kX, edge + kX, edge})
+            positions.push_back(corner);
+        for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
+            indices.push_back(first + corner);
+    }
+    Material slat;
+    slat.base_color = glm::vec4(0.85f, 0.85f, 0.85f, 1.0f);
+    slat.double_sided = true;
+    support::add_mesh(scene, positions, indices, slat);
+    scene.lights.push_back(
+        support::make_lamp(PunctualLight::Kind::directional, 1e5f, {}, {0.0f, -0.57f, 0.82f}));
+    return scene;
+}
+
+/// Two slats then share a texel.
+TEST(SlatsThinnerThanATexel, LightTheRoomBehindThem)
+{
+    const SolveScene world(room_behind_a_blind(), {.texels_per_metre = 31.0f});
+    const std::vector<glm::vec3> light = solve(world, 0.01).irradiance;
+    const std::vector<glm::vec3> truth = reference_irradiance(
+        world.scene, world.rays, world.lumels, {.samples_per_lumel = 256, .seed = 11});
+    for (const glm::vec3& facing : {glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(0.0f, 0.0f, -1.0f)}) {
+        double found = 0.0, wanted = 0.0;
+        for (std::size_t i = 0; i < light.size(); ++i) {
+            const Lumel& lumel = world.lumels.lumels[i];
+            if (glm::dot(lumel.normal, facing) < 0.99f || lumel.flags & kLumelBuried)
+                continue;
+            found += double(lumel.area) * double(light[i].g);
+            wanted += double(lumel.area) * double(truth[i].g);
+        }
+        EXPECT_GT(wanted, 0.0);
+        EXPECT_NEAR(found / wanted, 1.0, 0.015) << facing.y << ", " << facing.z;
     }
 }
 

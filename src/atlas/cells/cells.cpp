@@ -110,8 +110,8 @@ struct Cover {
     /// A corner does not see the nearest cell: geometry covers a sliver of the lumel that no cell's
     /// point is in.
     bool has_sliver = false;
-    /// Rays along the normal, as long as the lumel's side, meet something from some points of a
-    /// flat lumel but not from others.
+    /// Rays along the normal, as long as the lumel's side, meet something from some points but not
+    /// from others.
     bool is_half = false;
 };
 
@@ -120,23 +120,23 @@ Cover find_cover(const WorldLumels& world, const RayScene& scene, std::size_t i,
 {
     const WorldLumel& lumel = world[i];
     Cover cover;
-    if (!lumel.flat) {
+    cast.rays.clear();
+    if (lumel.flat)
+        for_each_corner(world, i, [&](const LumelPoint& corner) {
+            cast.rays.push_back(seen.ray_to(corner, seen.points().nearest(corner.position)));
+        });
+    else
         for_each_corner(world, i, [&](const LumelPoint& corner) {
             cover.has_sliver = cover.has_sliver || seen.nearest(corner) == kNoCell;
         });
-        return cover;
-    }
-    cast.rays.clear();
-    for_each_corner(world, i, [&](const LumelPoint& corner) {
-        cast.rays.push_back(seen.ray_to(corner, seen.points().nearest(corner.position)));
-    });
     const std::size_t corners = cast.rays.size();
     const float ray_offset = ray_offset_for(lumel.reach);
     const auto look_up = [&](const LumelPoint& from) {
-        cast.rays.push_back(ray_between(from.position + ray_offset * lumel.normal,
-                                        from.position + lumel.size * lumel.normal, 0.0f, seed));
+        cast.rays.push_back(ray_between(from.position + ray_offset * from.normal,
+                                        from.position + lumel.size * from.normal, 0.0f, seed));
     };
-    for_each_corner(world, i, look_up);
+    if (lumel.flat)
+        for_each_corner(world, i, look_up);
     for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
         if (seen.points().has(c))
             look_up(seen.points().point[c]);
@@ -146,7 +146,7 @@ Cover find_cover(const WorldLumels& world, const RayScene& scene, std::size_t i,
     const auto blocked = [](std::span<const glm::vec3> rays) {
         return std::size_t(std::ranges::count(rays, glm::vec3(0.0f)));
     };
-    cover.has_sliver = blocked(to_cells) > 0;
+    cover.has_sliver = cover.has_sliver || blocked(to_cells) > 0;
     cover.is_half = blocked(up) > 0 && blocked(up) < up.size();
     return cover;
 }

@@ -135,7 +135,7 @@ TEST(RayGuide, UnevenRaysBringTheSameLight)
         guide.tables[0].probabilities[b] = std::uint16_t(b % 2 == 0 ? 64 : 448);
     ASSERT_TRUE(guide.fits(work.order.size()));
 
-    const std::vector<std::uint16_t> each(work.order.size(), 64);
+    const std::vector<std::uint16_t> each(work.order.size(), 256);
     const auto light_by = [&](const RayGuide* by) {
         LinkTable links(parts.count());
         links.rounds.emplace_back(tracer.blocks());
