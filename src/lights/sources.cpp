@@ -20,17 +20,20 @@ namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-/// Uniform emitters of at most this many triangles use exact polygon form factors.
-constexpr std::size_t kMaxPolygons = 8;
+/// Uniform emitters of at most this many triangles, as a box has, use exact polygon form factors.
+constexpr std::size_t kMaxPolygons = 12;
 /// Larger emitters are split until each part has at most kMaxOfMesh triangles or a bounding box
 /// with sides of at most kSmallMesh × the diagonal of the scene.
 constexpr std::size_t kMaxOfMesh = 64;
 constexpr float kSmallMesh = 0.02f;
+/// So does an emitter of up to kMaxOfMesh triangles closer than this × its radius: its light is
+/// then from few of them.
+constexpr float kNearMesh = 0.5f;
 /// Candidate triangles, of which one is chosen by its light here. [TCE05]
 constexpr std::uint32_t kCandidates = 4;
-/// Triangles larger than this solid angle [sr] are sampled by solid angle: area would place too few
-/// points on the near part. [Arv95]
-constexpr double kWideTriangle = 0.25;
+/// Triangles larger than this solid angle [sr], or longer than this × their distance, are sampled
+/// by solid angle: area would place too few points on the near part. [Arv95]
+constexpr float kWideTriangle = 0.25f, kLongTriangle = 2.0f;
 /// Samples per axis for the mean emission of a textured triangle.
 constexpr int kMeanSide = 6;
 /// Parts of the sky brighter than this multiple of its mean become a source, if they have more than
@@ -214,7 +217,10 @@ void LightSources::add_surface(const Surfaces& surfaces, std::size_t index)
         const glm::vec3 across = glm::cross(triangle.corner[1] - triangle.corner[0],
                                             triangle.corner[2] - triangle.corner[0]);
         triangle.area = 0.5f * glm::length(across);
-        triangle.reach = longest_edge(triangle.corner[0], triangle.corner[1], triangle.corner[2]);
+        const auto& [a, b, c] = triangle.corner;
+        triangle.longest_edge = longest_edge(a, b, c);
+        triangle.box = {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
+        triangle.reach = triangle.longest_edge;
         for (const glm::vec3& corner : triangle.corner)
             triangle.reach = std::max(triangle.reach, largest_coordinate(corner));
         float mean = 0.0f;
@@ -369,9 +375,10 @@ SourceSample LightSources::sample_of(const Source& source, const RayOrigin& star
 {
     switch (source.kind) {
     case Kind::polygons:
-        return from_polygons(source, start, at);
+        return by_form_factor(source, start, at);
     case Kind::mesh:
-        return from_mesh(source, start, at);
+        return is_near(source, start) ? by_form_factor(source, start, at)
+                                      : by_power(source, start, at);
     case Kind::lamp:
         return from_lamp(scene_->lights[source.first], start, at);
     case Kind::sun:
@@ -380,6 +387,21 @@ SourceSample LightSources::sample_of(const Source& source, const RayOrigin& star
         return from_sky(start, at);
     }
     return {};
+}
+
+bool LightSources::is_wide(const Triangle& triangle, const glm::vec3& from)
+{
+    const float distance2 = triangle.box.distance2(from);
+    return triangle.area > kWideTriangle * distance2 ||
+           triangle.longest_edge * triangle.longest_edge >
+               kLongTriangle * kLongTriangle * distance2;
+}
+
+bool LightSources::is_near(const Source& source, const RayOrigin& start) const
+{
+    const float near = kNearMesh * source.radius;
+    return source.last - source.first <= kMaxOfMesh &&
+           source.box.distance2(start.position) < near * near;
 }
 
 SourceSample LightSources::from_triangle(const Source& source, const Triangle& triangle,
@@ -392,14 +414,11 @@ SourceSample LightSources::from_triangle(const Source& source, const Triangle& t
     SourceSample sample;
     float density = 0.0f;  // per solid angle
     glm::vec2 place;
-    // Twice its area over the squared distance is accurate enough for the choice.
-    const glm::vec3 middle = triangle.corner[0] + (edge_u + edge_v) / 3.0f - start.position;
-    const bool wide = double(triangle.area) > kWideTriangle * double(glm::dot(middle, middle));
     const auto towards = [&](int k) {
         return glm::normalize(glm::dvec3(triangle.corner[k]) - glm::dvec3(start.position));
     };
     std::optional<SphericalTriangle> sphere;
-    if (wide)
+    if (is_wide(triangle, start.position))
         sphere.emplace(towards(0), towards(1), towards(2));
     if (sphere && sphere->area() > 0.0) {
         sample.direction = sphere->direction(at);
@@ -439,10 +458,10 @@ SourceSample LightSources::from_triangle(const Source& source, const Triangle& t
 }
 
 /// Samples a triangle by its form factor.
-SourceSample LightSources::from_polygons(const Source& source, const RayOrigin& start,
-                                         glm::vec2 at) const
+SourceSample LightSources::by_form_factor(const Source& source, const RayOrigin& start,
+                                          glm::vec2 at) const
 {
-    float factors[kMaxPolygons];
+    float factors[kMaxOfMesh];
     const float sum = form_factors(source, start, factors);
     if (!(sum > 0.0f))
         return {.open = glm::vec3(0.0f)};
@@ -456,7 +475,7 @@ SourceSample LightSources::from_polygons(const Source& source, const RayOrigin& 
         at.x = std::clamp(mark / factors[t], 0.0f, 0x1.fffffep-1f);
         sample = from_triangle(source, triangles_[source.first + t], factors[t] / sum, start, at);
     }
-    if (is_above_surface(source, start))
+    if (source.uniform && is_above_surface(source, start))
         sample.open = sum * source.emission;
     return sample;
 }
@@ -479,8 +498,8 @@ bool LightSources::is_above_surface(const Source& source, const RayOrigin& start
 }
 
 /// Samples points on triangles by power, then one of them by its light here. [TCE05]
-SourceSample LightSources::from_mesh(const Source& source, const RayOrigin& start,
-                                     const glm::vec2& at) const
+SourceSample LightSources::by_power(const Source& source, const RayOrigin& start,
+                                    const glm::vec2& at) const
 {
     const auto first = running_.begin() + source.first, last = running_.begin() + source.last;
     const auto bits = std::uint32_t(at.x * 0x1p16f) << 16 | std::uint32_t(at.y * 0x1p16f);

@@ -97,6 +97,8 @@ private:
         glm::vec3 normal;     ///< unit
         float area;           ///< [m²]
         float reach;          ///< [m], see ray_offset_for()
+        float longest_edge;   ///< [m]
+        Box box;              ///< [m]
         float power;          ///< area × mean emission, luminance
         std::size_t surface;
         std::uint32_t index;  ///< in its primitive
@@ -126,9 +128,11 @@ private:
     float form_factors(const Source& source, const RayOrigin& start, float* of_triangles) const;
     SourceSample from_triangle(const Source& source, const Triangle& triangle, float chance,
                                const RayOrigin& start, const glm::vec2& at) const;
-    SourceSample from_polygons(const Source& source, const RayOrigin& start, glm::vec2 at) const;
+    SourceSample by_form_factor(const Source& source, const RayOrigin& start, glm::vec2 at) const;
     bool is_above_surface(const Source& source, const RayOrigin& start) const;
-    SourceSample from_mesh(const Source& source, const RayOrigin& start, const glm::vec2& at) const;
+    bool is_near(const Source& source, const RayOrigin& start) const;
+    static bool is_wide(const Triangle& triangle, const glm::vec3& from);
+    SourceSample by_power(const Source& source, const RayOrigin& start, const glm::vec2& at) const;
     SourceSample from_lamp(const PunctualLight& light, const RayOrigin& start,
                            const glm::vec2& at) const;
     SourceSample from_sun(const PunctualLight& light, const RayOrigin& start,

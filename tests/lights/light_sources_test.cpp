@@ -76,6 +76,31 @@ TEST(LightSources, AUniformPlateSendsItsEmissionTimesItsFormFactor)
         }
 }
 
+/// A tube's light on a wall 1 cm away is nearly all from the short part beside each point.
+TEST(LightSources, LongStripsScatterLittleHoweverNearTheyAre)
+{
+    constexpr double kLong = 6.0;
+    for (const double height : {0.01, 0.1, 1.0})
+        for (const double shift : {0.0, 2.7}) {
+            const Place place{{shift - 0.5 * kLong, shift + 0.5 * kLong}, {-0.01, 0.01}, height};
+            for (const int side : {1, 3}) {  // few triangles, and a mesh
+                const Scene scene = plate(place, side, glm::vec3(1.0f));
+                const Surfaces surfaces(scene);
+                const LightSources sources(scene, surfaces, float(kLong));
+                const double factor = point_to_parallel_rectangle(place.x, place.y, height);
+                double sum = 0.0, squares = 0.0;
+                constexpr int kSide = 256;
+                support::for_square(kSide, [&](const glm::vec2& at) {
+                    const double light = double(sources.sample(0, upward(), at).irradiance.r);
+                    sum += light / double(kSide * kSide);
+                    squares += light * light / double(kSide * kSide);
+                });
+                EXPECT_NEAR(sum / factor, 1.0, 0.01) << side << " at " << height << ", " << shift;
+                EXPECT_LT(squares, 2.0 * factor * factor) << side << " at " << height;
+            }
+        }
+}
+
 TEST(LightSources, APlateThatTurnsItsBackSendsNothing)
 {
     Scene scene;
