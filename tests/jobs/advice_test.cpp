@@ -1,5 +1,8 @@
 // What bake and info say about a scene: only what helps.
 
+#include <cmath>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -121,6 +124,32 @@ TEST(Advice, NamesWhatLampsAndCamerasSeeFromBehind)
                     for (const std::string& sentence : advice_on(scene))
                         EXPECT_EQ(sentence.find("from behind"), std::string::npos) << sentence;
             }
+}
+
+TEST(Advice, TellsOfLumelsWithoutLight)
+{
+    const AtlasOptions options{.size = 128};
+    const SolveScene scene(tables(3.0f), options);
+    const auto& lumels = scene.lumels.lumels;
+    std::vector<glm::vec3> light(lumels.size(), glm::vec3(1.0f));
+    EXPECT_EQ(of_dark_lumels(scene, options, light), "");
+    std::size_t dark = 0;
+    for (std::size_t i = 0; i < lumels.size(); ++i)
+        if (lumels[i].instance == 0) {
+            light[i] = glm::vec3(0.0f);
+            ++dark;
+        }
+    const double share = double(dark) / double(lumels.size());
+    ASSERT_GT(share, 0.34);
+    ASSERT_LT(share, 0.66);
+    expect_one({of_dark_lumels(scene, options, light)},
+               {fmt::format("{:.0f} % of the lumels get no light", 100.0 * share),
+                "100 % of them on \"ground\"",
+                fmt::format("{:.1f} times the texels", 1.0 / std::sqrt(1.0 - share))});
+    const AtlasOptions chosen{.texels_per_metre = 4.0f};
+    expect_one({of_dark_lumels(scene, chosen, light)}, {"less time and memory"});
+    // Other warnings tell of a map that is black everywhere.
+    EXPECT_EQ(of_dark_lumels(scene, options, std::vector<glm::vec3>(lumels.size())), "");
 }
 
 TEST(Advice, TellsOfASkyThatIsDarkBesideTheSun)

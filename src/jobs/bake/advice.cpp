@@ -1,6 +1,7 @@
 #include "jobs/bake/advice.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -14,8 +15,9 @@
 namespace lumel {
 namespace {
 
-/// Above these fractions of the lumels, advice is given on an object, and on back sides.
-constexpr double kMuch = 0.6, kManyBacks = 0.4;
+/// Above these fractions of the lumels, advice is given on an object, on back sides, and on lumels
+/// without light.
+constexpr double kMuch = 0.6, kManyBacks = 0.4, kMuchDark = 1.0 / 3.0;
 /// Of an object's area from above, what others stand on if it reaches far beyond them.
 constexpr double kSmallPart = 0.25;
 /// Scenes of fewer objects get no advice on them.
@@ -129,6 +131,36 @@ std::vector<std::string> advice(const SolveScene& prepared, const AtlasOptions& 
     return sentences;
 }
 
+std::string of_dark_lumels(const SolveScene& prepared, const AtlasOptions& chosen,
+                           const std::vector<glm::vec3>& irradiance)
+{
+    const std::vector<Lumel>& lumels = prepared.lumels.lumels;
+    const std::vector<Instance>& instances = prepared.scene.instances;
+    std::vector<std::size_t> dark_of(instances.size(), 0);
+    std::size_t dark = 0;
+    for (std::size_t i = 0; i < lumels.size(); ++i)
+        if (irradiance[i] == glm::vec3(0.0f)) {
+            ++dark_of[lumels[i].instance];
+            ++dark;
+        }
+    const double share = double(dark) / double(std::max<std::size_t>(lumels.size(), 1));
+    if (!(share > kMuchDark) || dark == lumels.size())
+        return {};
+    const auto most = std::max_element(dark_of.begin(), dark_of.end());
+    const std::string& name = instances[std::size_t(most - dark_of.begin())].name;
+    const std::string on = name.empty() ? ""
+                                        : fmt::format(", {} of them on \"{}\"",
+                                                      percent(double(*most) / double(dark)), name);
+    const std::string gain =
+        chosen.texels_per_metre > 0.0f
+            ? "the bake takes less time and memory"
+            : fmt::format("the rest has up to {:.1f} times the texels per metre at the same size",
+                          std::sqrt(1.0 / (1.0 - share)));
+    return fmt::format("{} of the lumels get no light{}; without faces that are never seen, such "
+                       "as the outside of a room, {}",
+                       percent(share), on, gain);
+}
+
 std::string where_it_is_noisy(const Scene& scene, const std::vector<NoisySurface>& surfaces)
 {
     std::string names;
@@ -160,6 +192,8 @@ void tell_advice(const SolveScene& prepared, const BakeOptions& options, const S
     if (!is_lit(solution.irradiance) && has_sources(prepared))
         stages.warn("no light reaches any surface: the lightmap is black");
     std::vector<std::string> sentences = advice(prepared, options.atlas);
+    if (options.parts == Parts::all)
+        sentences.push_back(of_dark_lumels(prepared, options.atlas, solution.irradiance));
     if (solution.solver->state().visible_noise.worst_chart >
         options.solver.target_quality.visible_noise)
         sentences.push_back(where_it_is_noisy(prepared.scene, solution.solver->noisy_surfaces()));

@@ -16,6 +16,11 @@ namespace lumel {
 /// beyond all others, unless densities are chosen; and on back sides.
 std::vector<std::string> advice(const SolveScene& prepared, const AtlasOptions& chosen);
 
+/// A sentence on lumels without any light, if they are a large share of the map: the outside of a
+/// room takes texels from its inside. irradiance: [N]. Empty if nothing is lit.
+std::string of_dark_lumels(const SolveScene& prepared, const AtlasOptions& chosen,
+                           const std::vector<glm::vec3>& irradiance);
+
 /// A sentence on where noise is still seen, at most three names; empty if nothing has one.
 std::string where_it_is_noisy(const Scene& scene, const std::vector<NoisySurface>& surfaces);
 
