@@ -264,6 +264,20 @@ TEST(Update, AnotherSkyIsAnotherLight)
     EXPECT_LE(bake.error(report, {"--sky", "1.1,1.2,1.3", "--sky-directions", "64"}), kAlike);
 }
 
+TEST(Update, TellsOfTheSceneOnceIfItSolvesAnew)
+{
+    const Bake bake;
+    const Outcome outcome =
+        run_lumel({"update", bake.folder(), own_scene("planes.gltf"), "--preview-width", "0"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("solved anew"), std::string::npos) << outcome.out;
+    for (const char* words : {"nothing in the scene gives light", "lightmap has been enlarged"}) {
+        const std::size_t first = outcome.err.find(words);
+        EXPECT_NE(first, std::string::npos) << words << ": " << outcome.err;
+        EXPECT_EQ(outcome.err.find(words, first + 1), std::string::npos) << outcome.err;
+    }
+}
+
 TEST(Update, RefusesWhatItCannotCorrect)
 {
     const Workplace empty;

@@ -199,7 +199,6 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
                                return atlas_of(*kept, scene, baked.pages);
                            })
              : EditedScene(std::move(before), std::move(now), solution, baked);
-    tell_user(edit.now);
     UpdateRow row = changes_of(edit);
     row.error_before = baked.error;
     std::optional<gpu::Device> device;
@@ -224,6 +223,9 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
         written = write_light(output, files, edit.now, device ? &*device : nullptr,
                               light.irradiance, light.error, {}, stages);
     }
+    // A new solution has told of the scene.
+    if (!row.solved_anew)
+        tell_user(edit.now);
     if (kept) {
         kept->scene_hash = edit.now.scene.hash;
         write_links(output.path(kLinksFile), std::move(*kept));
