@@ -94,7 +94,7 @@ ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const Worl
       settle_(device),
       residual_(device),
       light_(device, lumels),
-      shots_(device, world, lumels, options.views),
+      shots_(device, world, lumels, options.views, options.seed),
       chart_light_(device, shots_.layout().charts.size()),
       ambient_(device, 1),
       cursor_(device, 1),

@@ -3,6 +3,13 @@
 #include "solve/shooting/lumel_arrays.h"
 
 namespace lumel {
+namespace {
+
+/// Between the numbers of the points of one seed and the next.
+constexpr std::uint32_t kNumbersApart = 0x9e3779b9;
+
+}  // namespace
+
 ShotLight::ShotLight(const gpu::Device& device, const Lumels& lumels)
     : surface(device, view(surfaces_of(lumels))),
       emission(device, view(emission_of(lumels))),
@@ -13,12 +20,13 @@ ShotLight::ShotLight(const gpu::Device& device, const Lumels& lumels)
 }
 
 PatchShots::PatchShots(const gpu::Device& device, const World& world, const Lumels& lumels,
-                       const ViewOptions& options)
+                       const ViewOptions& options, std::uint32_t seed)
     : world_(&world),
       take_(device),
       views_(device, world, options.projection, std::uint32_t(options.hemicube),
              std::uint32_t(options.batch)),
       batch_(views_.capacity()),
+      first_number_((seed - 1) * kNumbersApart),
       layout_(make_patches(lumels)),
       patches_(device, view(layout_.patches)),
       charts_(device, view(layout_.charts)),
@@ -66,7 +74,7 @@ void PatchShots::take(gpu::Commands& commands, const ShotLight& light,
                        .sending = sending_,
                        .eyes = eyes_,
                        .shots = shots_},
-                      TakeParams{batch_}, batch_);
+                      TakeLightParams{batch_, first_number_}, batch_);
 }
 
 void PatchShots::take(gpu::Commands& commands, const ShotLight& light,

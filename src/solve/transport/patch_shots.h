@@ -27,8 +27,9 @@ struct ShotLight {
 /// Patches of the lumels, and the current batch of them: chosen, taken, rendered from.
 class PatchShots {
 public:
+    /// seed: of the points at which lumels receive; patches shoot from the same ones.
     PatchShots(const gpu::Device& device, const World& world, const Lumels& lumels,
-               const ViewOptions& options);
+               const ViewOptions& options, std::uint32_t seed);
 
     static std::uint64_t device_bytes(const SolveSize& size, const ViewOptions& options);
 
@@ -58,6 +59,7 @@ private:
     gpu::Kernel<shaders::PatchShotsTake> take_;
     EyeViews views_;
     std::uint32_t batch_;
+    std::uint32_t first_number_;  ///< of points
     Patches layout_;
     gpu::Array<Patch> patches_;
     gpu::Array<PatchChart> charts_;

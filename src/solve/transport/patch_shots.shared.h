@@ -40,5 +40,11 @@ struct TakeParams {
     uint batch;  ///< K
 };
 
+/// Push constants of patch_shots.take.comp.
+struct TakeLightParams {
+    uint batch;         ///< K
+    uint first_number;  ///< added to the numbers of all points
+};
+
 LUMEL_SHARED_END
 #endif

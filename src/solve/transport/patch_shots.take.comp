@@ -14,7 +14,7 @@
 // each, and the radiosity that each of its lumels sends.
 
 layout(local_size_x = kPatchGroup) in;
-layout(push_constant, scalar) uniform Params { TakeParams p; };
+layout(push_constant, scalar) uniform Params { TakeLightParams p; };
 layout(scalar) readonly buffer Charts { PatchChart charts[]; };
 layout(scalar) readonly buffer Patches { Patch patches[]; };
 layout(scalar) readonly buffer Chosen { ChosenPatch chosen[]; };
@@ -72,7 +72,7 @@ void main()
     }
     const bool any = power != vec3(0.0) || c.send >= kSendCrossing;
     shots[k] = PatchShot(power / kPi, block.size, size, block.first, any ? block.count : 0u, points,
-                         block.first * points + c.index % points,
+                         p.first_number + block.first * points + c.index % points,
                          c.send == kSendBackSide ? -1.0 : 1.0);
     const LumelPoint y = eye_point(c, block);
     eyes[k] = make_eye(y.position, shots[k].facing * y.normal, hash(block.first ^ hash(c.index)),
