@@ -18,7 +18,7 @@ struct CrossOptions {
     /// Points of a lamp that shoot past movable objects, at least 1: the coarsest level with as
     /// many is used, or the solution's own. Where the solution shoots from more, shadows of these
     /// objects are coarser than in a solution from scratch.
-    std::uint32_t lamp_points = 64;
+    std::uint32_t lamp_points = 256;
 };
 
 /// Redistributes light shot among static lumels, batch by batch.

@@ -6,6 +6,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "atlas/near/still_part.h"
 #include "methods/redistribution/live_scene.h"
 #include "scene/values/scene.h"
 
@@ -19,6 +20,18 @@ inline glm::mat4 shifted(const Scene& scene, float distance, float angle)
         glm::translate(glm::mat4(1.0f), axis + glm::vec3(-distance, 0.0f, 0.0f));
     return glm::translate(glm::rotate(shift, angle, glm::vec3(0, 1, 0)), -axis) *
            scene.instances[find_instance(scene, "box")].transform;
+}
+
+/// The box's place once it has turned about the upright axis through its middle [rad].
+inline glm::mat4 turned_box(const Scene& scene, float angle)
+{
+    const std::uint32_t box = find_instance(scene, "box");
+    const glm::mat4& place = scene.instances[box].transform;
+    const MovedBox bounds = box_of(scene, box, place);
+    const glm::vec3 centre = 0.5f * (bounds.low + bounds.high);
+    const glm::mat4 turn =
+        glm::rotate(glm::translate(glm::mat4(1.0f), centre), angle, glm::vec3(0, 1, 0));
+    return glm::translate(turn, -centre) * place;
 }
 
 /// Relative RMSE over lumels with none of the flags `left_out`.
