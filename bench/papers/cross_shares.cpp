@@ -35,10 +35,11 @@ BeforeAndAfter from_scratch(const gpu::Device& device, const Stage& stage)
     return solved;
 }
 
-BeforeAndAfter by_cross(const gpu::Device& device, const Stage& stage)
+BeforeAndAfter followed(const gpu::Device& device, const Stage& stage,
+                        Redistribution redistribution)
 {
     LiveOptions options = stage.options;
-    options.redistribution = Redistribution::cross;
+    options.redistribution = redistribution;
     LiveScene live(device, stage.scene, options);
     live.settle();
     BeforeAndAfter solved;
@@ -48,6 +49,11 @@ BeforeAndAfter by_cross(const gpu::Device& device, const Stage& stage)
         solved.after = in_a_row(live.lumels(), live.irradiance());
     }
     return solved;
+}
+
+BeforeAndAfter by_cross(const gpu::Device& device, const Stage& stage)
+{
+    return followed(device, stage, Redistribution::cross);
 }
 
 /// a + b - c, of maps of the same lumels.
@@ -90,6 +96,14 @@ void measure(const gpu::Device& device, const std::string& scene, const Stage& s
     };
     add(
         "cross", [](LiveOptions&) {}, false);
+    Stage own = stage;
+    own.options.redistribution = Redistribution::cross;
+    add_row(report, scene, "cross, against cross from scratch", by_cross(device, stage),
+            from_scratch(device, own));
+    Stage other = stage;
+    ++other.options.solver.seed;
+    add_row(report, scene, "progressive, lumels receive at other points",
+            from_scratch(device, other), scratch);
     add(
         "lamps shoot from the solution's points",
         [](LiveOptions& options) {
@@ -111,6 +125,12 @@ void measure(const gpu::Device& device, const std::string& scene, const Stage& s
     const BeforeAndAfter fine = from_scratch(device, finer);
     add_row(report, scene, "cross, against progressive with both", by_cross(device, stage), fine);
     add_row(report, scene, "progressive, against progressive with both", scratch, fine);
+    add_row(report, scene, "incremental, against progressive with both",
+            followed(device, stage, Redistribution::incremental), fine);
+    other = finer;
+    ++other.options.solver.seed;
+    add_row(report, scene, "progressive with both, lumels receive at other points",
+            from_scratch(device, other), fine);
     finer.options.cross.lamp_points = std::numeric_limits<std::uint32_t>::max();
     add_row(report, scene, "cross with both and all lamp points, against progressive with both",
             by_cross(device, finer), fine);

@@ -78,10 +78,14 @@ MoveOutcome corrected(const gpu::Device& device, const Stage& stage, Redistribut
     LiveScene live(device, stage.scene, options);
     live.settle();
     std::vector<MoveOutcome> outcomes;
-    for (const glm::mat4& place : stage.places)
+    std::vector<glm::vec3> before;
+    for (const glm::mat4& place : stage.places) {
+        before = live.irradiance();
         outcomes.push_back({.update = update_after_move(live, stage.box, place)});
+    }
     const std::vector<glm::vec3> alone = outcomes.back().update.alone;
     MoveOutcome outcome = median(device, std::move(outcomes));
+    outcome.before = std::move(before);
     outcome.alone = alone;
     outcome.irradiance = live.irradiance();
     return outcome;
@@ -94,6 +98,32 @@ MoveOutcome from_scratch(const gpu::Device& device, const Stage& stage)
     for (std::size_t i = 0; i < stage.places.size(); ++i)
         outcomes.push_back(from_scratch(device, stage, stage.places.back()));
     return median(device, std::move(outcomes));
+}
+
+/// H [N] in the place before the last and in the last one.
+struct BeforeAndAfter {
+    std::vector<glm::vec3> before, after;
+};
+
+/// Both solved from scratch.
+BeforeAndAfter both_from_scratch(const gpu::Device& device, const Stage& stage)
+{
+    return {from_scratch(device, stage, stage.places.end()[-2]).irradiance,
+            from_scratch(device, stage, stage.places.back()).irradiance};
+}
+
+ShareOfMove share_of_move(const Lumels& lumels, const BeforeAndAfter& found,
+                          const BeforeAndAfter& wanted)
+{
+    std::vector<glm::vec3> followed = wanted.before;
+    for (std::size_t i = 0; i < followed.size(); ++i)
+        followed[i] += found.after[i] - found.before[i];
+    const Image row = in_a_row(lumels, wanted.after);
+    const auto from_wanted = [&](const std::vector<glm::vec3>& irradiance) {
+        return compare_maps(in_a_row(lumels, irradiance), row).relative_rmse;
+    };
+    const double change = from_wanted(wanted.before);
+    return {from_wanted(found.after) / change, from_wanted(followed) / change};
 }
 
 /// The light of the place before the last, and no time at all.
@@ -154,6 +184,25 @@ void compare(const Stage& stage, const LiveScene& laid_out, const DynamicSetting
     }
 }
 
+/// What each redistribution, and a solution with another seed, is from solutions from scratch.
+void share_out(const gpu::Device& device, const Stage& stage, const Lumels& lumels,
+               MoveResults& results)
+{
+    const BeforeAndAfter progressive{results.by[kNothing]->irradiance,
+                                     results.by[kProgressive]->irradiance};
+    for (const auto& [technique, redistribution] : kRedistributions) {
+        MoveOutcome& outcome = *results.by[technique];
+        Stage own = stage;
+        own.options.redistribution = redistribution;
+        outcome.own =
+            share_of_move(lumels, {outcome.before, outcome.irradiance},
+                          crosses(redistribution) ? both_from_scratch(device, own) : progressive);
+    }
+    Stage other = stage;
+    ++other.options.solver.seed;
+    results.other_seed = share_of_move(lumels, both_from_scratch(device, other), progressive);
+}
+
 MoveResults measure(const gpu::Device& device, const ThesisScene& which,
                     const DynamicSettings& settings, int pieces)
 {
@@ -172,6 +221,7 @@ MoveResults measure(const gpu::Device& device, const ThesisScene& which,
     if (settings.gathers)
         results.by[kGather] = gathered(device, laid_out, stage);
     compare(stage, laid_out, settings, results);
+    share_out(device, stage, laid_out.lumels(), results);
     if (!settings.folder.empty())
         results.picture = draw_techniques(device, posed(stage), laid_out.atlas(), laid_out.lumels(),
                                           which, settings, results);

@@ -133,6 +133,32 @@ void add_errors_from_truth(Report& report, const std::vector<MoveResults>& all)
         [&](const MoveOutcome& o) { return relative(o.from_truth); }, relative_ours, kNothing);
 }
 
+/// What a move leaves of its change, and what another seed does.
+void add_shares(Report& report, const std::vector<MoveResults>& all)
+{
+    const auto add = [&](const char* key, const char* title, double ShareOfMove::*share) {
+        add_table(
+            report, key, title, all,
+            [&](const MoveOutcome& o) {
+                return o.own ? fixed(100.0 * ((*o.own).*share), 1) : none();
+            },
+            kSolvedAnew, kProgressive);
+    };
+    add("own-left",
+        "What is left of the change by the move, from a solution from scratch by the same "
+        "technique, at rest, %",
+        &ShareOfMove::left);
+    add("own-missed", "The same of the changes, without a standing offset, %",
+        &ShareOfMove::missed);
+    report.table("other-seed",
+                 "Two progressive solutions whose lumels receive at other points, over the change "
+                 "by the move, %",
+                 {"scene", "left", "missed"}, kSolvedAnew);
+    for (const MoveResults& results : all)
+        report.row({results.title, fixed(100.0 * results.other_seed.left, 1),
+                    fixed(100.0 * results.other_seed.missed, 1)});
+}
+
 }  // namespace
 
 void add_scenes(Report& report, const std::string& suffix, const std::vector<MoveResults>& all)
@@ -163,6 +189,7 @@ void add_errors(Report& report, const std::vector<MoveResults>& all)
         report, "change-left", "What is left of the change by the move, at rest, %", all,
         [](const MoveOutcome& o) { return fixed(100.0 * o.change_left, 1); }, kSolvedAnew,
         kNothing);
+    add_shares(report, all);
 }
 
 void add_times(Report& report, const std::string& suffix, const std::vector<MoveResults>& all,

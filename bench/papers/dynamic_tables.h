@@ -30,6 +30,12 @@ inline constexpr std::array<const char*, kTechniques> kTechniqueNames{
     "cross",        "paper-incremental",
     "paper-cross",  "paper-cross-incremental"};
 
+/// Distance of a solution from another after a move, relative to what the move changes in that one.
+struct ShareOfMove {
+    double left;    ///< of the solutions
+    double missed;  ///< of the changes: a standing offset cancels
+};
+
 /// What one technique did after the last move.
 struct MoveOutcome {
     Update update;
@@ -37,7 +43,9 @@ struct MoveOutcome {
     std::optional<MapError> alone_from_truth, from_truth;
     /// Relative RMSE from `progressive` at rest, with the same lumels.
     double alone_from_scratch = 0.0, from_scratch = 0.0;
-    double change_left = 0.0;  ///< from_scratch relative to that of nothing done
+    double change_left = 0.0;        ///< from_scratch relative to that of nothing done
+    std::vector<glm::vec3> before;   ///< H [N] at rest before the last move
+    std::optional<ShareOfMove> own;  ///< from solutions from scratch by the same technique
 };
 
 /// One scene.
@@ -47,7 +55,8 @@ struct MoveResults {
     std::size_t patches = 0, moving_patches = 0;
     std::size_t vertices = 0, triangles = 0;
     std::array<std::optional<MoveOutcome>, kTechniques> by;
-    Solved ours;  ///< from scratch, with the box in its last place
+    ShareOfMove other_seed{};  ///< progressive solutions with another seed, from `progressive`
+    Solved ours;               ///< from scratch, with the box in its last place
     std::optional<MapError> ours_from_truth;
     std::vector<glm::vec3> truth;  ///< H [N] by paths; empty: none
     std::optional<Picture> picture;

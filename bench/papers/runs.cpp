@@ -78,13 +78,14 @@ constexpr Run kRuns[] = {
      "directions --scenes cubes,balls,sky,lamp,landscape --size 32 --map-side 64 --directions 4 "
      "--width 16 -o {out}"},
     {"moves", "A box that turns",
-     "An update, from the move until 0.05 % of all light is unshot, and of its "
+     "An update, from the move until 0.01 % of all light is unshot, and of its "
      "redistribution alone: the median of the moves, or of the solutions from scratch, after the "
      "first; a table of errors for either state. Errors are of the lumels' "
      "irradiance; the thesis has them of pictures.",
-     "dynamic --hemicube 64 --size 64 --low-size 32 --steps 3 --reference-spp 512 --no-gather "
-     "--pieces 1 --width 200 -o {out}",
-     "dynamic --hemicube 64 --no-gather --pieces 1 -o {out}",
+     "dynamic --hemicube 64 --size 64 --low-size 32 --steps 3 --residual 0.0001 --reference-spp "
+     "512 "
+     "--no-gather --pieces 1 --width 200 -o {out}",
+     "dynamic --hemicube 64 --residual 0.0001 --no-gather --pieces 1 -o {out}",
      "dynamic --size 16 --low-size 16 --hemicube 16 --steps 1 --reference-spp 4 "
      "--residual 0.1 --no-gather --pieces 1 --width 16 -o {out}"},
     {"cross-shares", "What keeps cross from a solution from scratch",
