@@ -18,6 +18,10 @@ constexpr double kAdaptiveGain = 0.6;
 /// Rays of the second round, relative to those of the first, from which on they gain more by a
 /// guide than it takes to learn it.
 constexpr double kWorthAGuide = 0.25;
+/// Rays of the second round, relative to the limit if the target errors ask for more than that: the
+/// third shares out the others by what more rays have found. Charts with visible noise are known
+/// from the first.
+constexpr double kOfLimit = 0.3;
 /// Refines direct light if its variance is this multiple of its target; at most to kMinDirect × the
 /// present variance in one pass.
 constexpr double kTooUncertain = 1.25, kMinDirect = 1.0 / 16.0;
@@ -130,6 +134,8 @@ void LinkRadiosity::begin_round()
     } else {
         const double so_far = double(state_.shots) / double(kSolutions);
         state_.full = fit < kMinAdded * so_far;
+        if (round_ == 1 && noisy_charts().empty() && more_rays() >= most)
+            most *= kOfLimit;
         if (!state_.full) {
             share_out_rays(most);
             if (round_ == 1 && mean_rays_ > kWorthAGuide * so_far && learn_guide())
