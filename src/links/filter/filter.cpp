@@ -315,8 +315,8 @@ namespace {
 
 /// Filters parts of a chart's light, where is_filtered(texel).
 template <class IsFiltered>
-void filter_parts(const FilterChart& chart, const PyramidGains& gains, std::span<Estimates> parts,
-                  const IsFiltered& is_filtered)
+void filter_parts(const FilterChart& chart, const Outliers& outliers, const PyramidGains& gains,
+                  std::span<Estimates> parts, const IsFiltered& is_filtered)
 {
     for (std::size_t first = 0; first < parts.size(); first += kFilteredTogether) {
         const std::size_t count = std::min(kFilteredTogether, parts.size() - first);
@@ -324,7 +324,7 @@ void filter_parts(const FilterChart& chart, const PyramidGains& gains, std::span
         for (std::size_t k = 0; k < found.size(); ++k)
             found[k] = &parts[first + std::min(k, count - 1)];
         const std::vector<FitLight<kFilteredTogether>> filtered =
-            filter_chart_by(gains, chart, found);
+            filter_chart_by(outliers, gains, chart, found);
         for (std::size_t t = 0; t < filtered.size(); ++t)
             if (const std::uint32_t i = chart.lumel[t]; i != kNoLumel && is_filtered(t))
                 for (std::size_t k = 0; k < count; ++k)
@@ -338,7 +338,7 @@ void ChartFilter::indirect_parts(const Solutions& found, std::span<Estimates> pa
 {
     filter<kSolutions>({&found[0], &found[1], &found[2]}, rule_of_indirect(),
                        [&](const FilterChart& chart, const Filtered<kSolutions>& filtered) {
-                           filter_parts(chart, filtered.gains, parts,
+                           filter_parts(chart, filtered.outliers, filtered.gains, parts,
                                         [](std::size_t) { return true; });
                        });
 }
@@ -349,7 +349,7 @@ void ChartFilter::direct_parts(const Estimates& one, const Estimates& other,
     filter<2>({&one, &other}, rule_of_direct(),
               [&](const FilterChart& chart, const Filtered<2>& filtered) {
                   const std::vector<float> uncertain = uncertain_in(chart, one, other);
-                  filter_parts(chart, filtered.gains, parts,
+                  filter_parts(chart, filtered.outliers, filtered.gains, parts,
                                [&](std::size_t t) { return uncertain[t] != 0.0f; });
               });
 }

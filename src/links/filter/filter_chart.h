@@ -18,6 +18,20 @@ struct Offset {
 };
 inline constexpr std::array<Offset, 4> kSteps = {{{1, 0}, {0, 1}, {1, 1}, {-1, 1}}};
 
+/// True if the filter may step over (dx, dy) from one place to the next. steps: of each place, bit
+/// s: it may step over kSteps[s].
+inline bool has_step(const std::vector<std::uint8_t>& steps, std::size_t from, std::size_t to,
+                     int dx, int dy)
+{
+    for (std::size_t s = 0; s < kSteps.size(); ++s) {
+        if (kSteps[s].x == dx && kSteps[s].y == dy)
+            return (steps[from] >> s & 1u) != 0;
+        if (kSteps[s].x == -dx && kSteps[s].y == -dy)
+            return (steps[to] >> s & 1u) != 0;
+    }
+    return false;
+}
+
 /// Two neighbours can be separated by geometry that is closer than this multiple of their distance;
 /// a ray between them, kLift sides of a lumel above them, decides.
 inline constexpr float kMayStandBetween = 1.5f, kLift = 0.05f;
@@ -34,6 +48,12 @@ struct FilterChart {
     std::size_t at(int x, int y) const
     {
         return std::size_t(y) * std::size_t(width) + std::size_t(x);
+    }
+    bool contains(int x, int y) const { return x >= 0 && x < width && y >= 0 && y < height; }
+    /// True if the filter may step from a lumel to the one at (dx, dy).
+    bool is_open(int x, int y, int dx, int dy) const
+    {
+        return contains(x + dx, y + dy) && has_step(steps, at(x, y), at(x + dx, y + dy), dx, dy);
     }
 };
 

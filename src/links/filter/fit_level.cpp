@@ -346,13 +346,7 @@ bool FitLevel<Count>::is_open(int x, int y, int dx, int dy) const
         return true;
     if (!contains(x + dx, y + dy) || !counts(at(x + dx, y + dy)))
         return false;
-    for (std::size_t s = 0; s < kSteps.size(); ++s) {
-        if (kSteps[s].x == dx && kSteps[s].y == dy)
-            return (steps[at(x, y)] >> s & 1u) != 0;
-        if (kSteps[s].x == -dx && kSteps[s].y == -dy)
-            return (steps[at(x + dx, y + dy)] >> s & 1u) != 0;
-    }
-    return false;
+    return has_step(steps, at(x, y), at(x + dx, y + dy), dx, dy);
 }
 
 template <std::size_t Count>

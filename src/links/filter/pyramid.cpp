@@ -250,14 +250,12 @@ PyramidRule rule_of_direct()
 
 namespace {
 
-/// Filtered estimates: the fits of `levels` levels and their details, by gains. gains_of(l, level,
-/// fitted, detail): those of level l at each texel.
+/// Filtered estimates: the fits of `levels` levels, from the finest on, and their details, by
+/// gains. gains_of(l, level, fitted, detail): those of level l at each texel.
 template <std::size_t Count, class GainsOf>
-std::vector<FitLight<Count>> join_levels(const FilterChart& chart,
-                                         const std::array<const Estimates*, Count>& found,
+std::vector<FitLight<Count>> join_levels(const FilterChart& chart, FitLevel<Count> level,
                                          std::size_t levels, const GainsOf& gains_of)
 {
-    FitLevel<Count> level = finest_level<Count>(chart, found);
     std::vector<FitLight<Count>> finer = level.light, result(finer.size(), FitLight<Count>{});
     for (std::size_t l = 0; l < levels; ++l) {
         if (l > 0)
@@ -286,6 +284,12 @@ Filtered<Count> filter_chart(const FilterChart& chart,
                              const std::array<const Estimates*, Count>& found,
                              const PyramidRule& rule)
 {
+    FitLevel<Count> finest = finest_level<Count>(chart, found);
+    Outliers outliers;
+    if (rule.doubts_single_cells) {
+        outliers = find_outliers<Count>(chart, finest.light);
+        spread_outliers<Count>(chart, outliers, finest.light);
+    }
     PyramidGains used(rule.caution.size(), std::vector<float>(chart.lumel.size(), 0.0f));
     const auto find_gains =
         [&](std::size_t l, const FitLevel<Count>& level, const std::vector<FitLight<Count>>& fitted,
@@ -298,16 +302,18 @@ Filtered<Count> filter_chart(const FilterChart& chart,
         return used[l];
     };
     std::vector<FitLight<Count>> light =
-        join_levels<Count>(chart, found, rule.caution.size(), find_gains);
-    return {std::move(light), std::move(used)};
+        join_levels<Count>(chart, std::move(finest), rule.caution.size(), find_gains);
+    return {std::move(light), std::move(outliers), std::move(used)};
 }
 
 std::vector<FitLight<kFilteredTogether>>
-filter_chart_by(const PyramidGains& gains, const FilterChart& chart,
+filter_chart_by(const Outliers& outliers, const PyramidGains& gains, const FilterChart& chart,
                 const std::array<const Estimates*, kFilteredTogether>& found)
 {
+    FitLevel<kFilteredTogether> finest = finest_level<kFilteredTogether>(chart, found);
+    spread_parts<kFilteredTogether>(chart, outliers, finest.light);
     return join_levels<kFilteredTogether>(
-        chart, found, gains.size(),
+        chart, std::move(finest), gains.size(),
         [&](std::size_t l, const auto&, const auto&, const auto&) -> const std::vector<float>& {
             return gains[l];
         });

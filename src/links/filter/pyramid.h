@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "links/filter/fit_level.h"
+#include "links/filter/outliers.h"
 
 namespace lumel {
 
@@ -28,8 +29,8 @@ struct PyramidRule {
     /// Averages noise over that window alone: beside a noisy penumbra, lumels that see all of the
     /// light or none of it are exact.
     bool has_local_noise;
-    /// Keeps no detail of a single cell: rays of all estimates may have met the same small light by
-    /// chance.
+    /// Shares outliers, and keeps no detail of a single cell: rays of one or of all estimates may
+    /// have met a small light by chance.
     bool doubts_single_cells;
 };
 
@@ -44,6 +45,7 @@ using PyramidGains = std::vector<std::vector<float>>;
 template <std::size_t Count>
 struct Filtered {
     std::vector<FitLight<Count>> light;  ///< [texels]
+    Outliers outliers;                   ///< shared first, of indirect light
     PyramidGains gains;
 };
 
@@ -64,11 +66,11 @@ Filtered<Count> filter_chart(const FilterChart& chart,
                              const std::array<const Estimates*, Count>& found,
                              const PyramidRule& rule);
 
-/// Other light, of up to this many kinds at once, filtered by the gains that filter_chart found:
-/// parts of a light so filtered add up to the filtered light.
+/// Other light, of up to this many kinds at once, filtered by the outliers and gains that
+/// filter_chart found: parts of a light so filtered add up to the filtered light.
 inline constexpr std::size_t kFilteredTogether = 8;
 std::vector<FitLight<kFilteredTogether>>
-filter_chart_by(const PyramidGains& gains, const FilterChart& chart,
+filter_chart_by(const Outliers& outliers, const PyramidGains& gains, const FilterChart& chart,
                 const std::array<const Estimates*, kFilteredTogether>& found);
 
 }  // namespace lumel
