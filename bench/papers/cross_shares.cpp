@@ -7,7 +7,6 @@
 
 #include "bench/papers/dynamic_stage.h"
 #include "bench/papers/figures.h"
-#include "truth/metrics.h"
 
 namespace lumel::bench {
 namespace {
@@ -16,94 +15,70 @@ constexpr int kFiner = 4;           ///< as wide are hemicubes
 constexpr std::uint32_t kMore = 8;  ///< as many are shooters
 constexpr double kLessLeft = 0.1;   ///< of the residual
 
-/// H [N] before and after the last move, and processor time of that move.
-struct BeforeAndAfter {
-    Image before, after;
+/// The last move, and its processor time.
+struct TimedMove {
+    BeforeAndAfter light;
     double cpu_ms = 0.0;
 };
 
-BeforeAndAfter from_scratch(const gpu::Device& device, const Stage& stage)
+TimedMove from_scratch(const gpu::Device& device, const Stage& stage)
 {
-    BeforeAndAfter solved;
+    TimedMove solved;
     const auto at = [&](const glm::mat4& place) {
         LiveScene live(device, stage.scene, stage.options);
         solved.cpu_ms = update_after_move(live, stage.box, place).whole_cpu_ms;
-        return in_a_row(live.lumels(), live.irradiance());
+        return live.irradiance();
     };
-    solved.before = at(stage.places.end()[-2]);
-    solved.after = at(stage.places.back());
+    solved.light.before = at(stage.places.end()[-2]);
+    solved.light.after = at(stage.places.back());
     return solved;
 }
 
-BeforeAndAfter followed(const gpu::Device& device, const Stage& stage,
-                        Redistribution redistribution)
+TimedMove followed(const gpu::Device& device, const Stage& stage, Redistribution redistribution)
 {
     LiveOptions options = stage.options;
     options.redistribution = redistribution;
     LiveScene live(device, stage.scene, options);
     live.settle();
-    BeforeAndAfter solved;
+    TimedMove solved;
     for (const glm::mat4& place : stage.places) {
-        solved.before = std::move(solved.after);
+        solved.light.before = live.irradiance();
         solved.cpu_ms = update_after_move(live, stage.box, place).whole_cpu_ms;
-        solved.after = in_a_row(live.lumels(), live.irradiance());
     }
+    solved.light.after = live.irradiance();
     return solved;
 }
 
-BeforeAndAfter by_cross(const gpu::Device& device, const Stage& stage)
+TimedMove by_cross(const gpu::Device& device, const Stage& stage)
 {
     return followed(device, stage, Redistribution::cross);
-}
-
-/// a + b - c, of maps of the same lumels.
-Image plus_minus(const Image& a, const Image& b, const Image& c)
-{
-    Image sum = a;
-    for (std::size_t i = 0; i < sum.values.size(); ++i)
-        if (i % std::size_t(sum.channels) != std::size_t(sum.channels) - 1)
-            sum.values[i] += b.values[i] - c.values[i];
-    return sum;
-}
-
-double apart(const Image& a, const Image& b)
-{
-    return compare_maps(a, b).relative_rmse;
-}
-
-void add_row(Report& report, const std::string& scene, const char* what,
-             const BeforeAndAfter& found, const BeforeAndAfter& scratch)
-{
-    const double change = apart(scratch.before, scratch.after);
-    const double distance = apart(found.after, scratch.after);
-    // The change by the move from the solution from scratch before it: without a standing offset.
-    const double missed =
-        apart(plus_minus(scratch.before, found.after, found.before), scratch.after);
-    report.row({scene, what, fixed(100.0 * change, 3), fixed(100.0 * distance, 3),
-                fixed(100.0 * distance / change, 0), fixed(100.0 * missed / change, 0),
-                fixed(found.cpu_ms, 0)});
 }
 
 void measure(const gpu::Device& device, const std::string& scene, const Stage& stage,
              Report& report)
 {
-    const BeforeAndAfter scratch = from_scratch(device, stage);
+    const LiveScene laid_out(device, stage.scene, stage.options);
+    const auto add_row = [&](const char* what, const TimedMove& found, const TimedMove& wanted) {
+        const ShareOfMove share = share_of_move(laid_out.lumels(), found.light, wanted.light);
+        report.row({scene, what, fixed(100.0 * share.change, 3),
+                    fixed(100.0 * share.left * share.change, 3), fixed(100.0 * share.left, 0),
+                    fixed(100.0 * share.missed, 0), fixed(found.cpu_ms, 0)});
+    };
+    const TimedMove scratch = from_scratch(device, stage);
     const auto add = [&](const char* what, const auto& change_options, bool of_both) {
         Stage changed = stage;
         change_options(changed.options);
-        add_row(report, scene, what, by_cross(device, changed),
-                of_both ? from_scratch(device, changed) : scratch);
+        add_row(what, by_cross(device, changed), of_both ? from_scratch(device, changed) : scratch);
     };
     add(
         "cross", [](LiveOptions&) {}, false);
     Stage own = stage;
     own.options.redistribution = Redistribution::cross;
-    add_row(report, scene, "cross, against cross from scratch", by_cross(device, stage),
+    add_row("cross, against cross from scratch", by_cross(device, stage),
             from_scratch(device, own));
     Stage other = stage;
     ++other.options.solver.seed;
-    add_row(report, scene, "progressive, lumels receive at other points",
-            from_scratch(device, other), scratch);
+    add_row("progressive, lumels receive at other points", from_scratch(device, other), scratch);
     add(
         "lamps shoot from the solution's points",
         [](LiveOptions& options) {
@@ -122,17 +97,17 @@ void measure(const gpu::Device& device, const std::string& scene, const Stage& s
     Stage finer = stage;
     finer.options.solver.views.hemicube *= kFiner;
     finer.options.solver.shooters *= kMore;
-    const BeforeAndAfter fine = from_scratch(device, finer);
-    add_row(report, scene, "cross, against progressive with both", by_cross(device, stage), fine);
-    add_row(report, scene, "progressive, against progressive with both", scratch, fine);
-    add_row(report, scene, "incremental, against progressive with both",
+    const TimedMove fine = from_scratch(device, finer);
+    add_row("cross, against progressive with both", by_cross(device, stage), fine);
+    add_row("progressive, against progressive with both", scratch, fine);
+    add_row("incremental, against progressive with both",
             followed(device, stage, Redistribution::incremental), fine);
     other = finer;
     ++other.options.solver.seed;
-    add_row(report, scene, "progressive with both, lumels receive at other points",
-            from_scratch(device, other), fine);
+    add_row("progressive with both, lumels receive at other points", from_scratch(device, other),
+            fine);
     finer.options.cross.lamp_points = std::numeric_limits<std::uint32_t>::max();
-    add_row(report, scene, "cross with both and all lamp points, against progressive with both",
+    add_row("cross with both and all lamp points, against progressive with both",
             by_cross(device, finer), fine);
 }
 

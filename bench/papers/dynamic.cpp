@@ -100,30 +100,11 @@ MoveOutcome from_scratch(const gpu::Device& device, const Stage& stage)
     return median(device, std::move(outcomes));
 }
 
-/// H [N] in the place before the last and in the last one.
-struct BeforeAndAfter {
-    std::vector<glm::vec3> before, after;
-};
-
-/// Both solved from scratch.
+/// In the place before the last and in the last one, each solved from scratch.
 BeforeAndAfter both_from_scratch(const gpu::Device& device, const Stage& stage)
 {
     return {from_scratch(device, stage, stage.places.end()[-2]).irradiance,
             from_scratch(device, stage, stage.places.back()).irradiance};
-}
-
-ShareOfMove share_of_move(const Lumels& lumels, const BeforeAndAfter& found,
-                          const BeforeAndAfter& wanted)
-{
-    std::vector<glm::vec3> followed = wanted.before;
-    for (std::size_t i = 0; i < followed.size(); ++i)
-        followed[i] += found.after[i] - found.before[i];
-    const Image row = in_a_row(lumels, wanted.after);
-    const auto from_wanted = [&](const std::vector<glm::vec3>& irradiance) {
-        return compare_maps(in_a_row(lumels, irradiance), row).relative_rmse;
-    };
-    const double change = from_wanted(wanted.before);
-    return {from_wanted(found.after) / change, from_wanted(followed) / change};
 }
 
 /// The light of the place before the last, and no time at all.
@@ -184,7 +165,8 @@ void compare(const Stage& stage, const LiveScene& laid_out, const DynamicSetting
     }
 }
 
-/// What each redistribution, and a solution with another seed, is from solutions from scratch.
+/// Distances of each redistribution, and of a solution with another seed, from solutions from
+/// scratch.
 void share_out(const gpu::Device& device, const Stage& stage, const Lumels& lumels,
                MoveResults& results)
 {

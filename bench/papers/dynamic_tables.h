@@ -30,12 +30,6 @@ inline constexpr std::array<const char*, kTechniques> kTechniqueNames{
     "cross",        "paper-incremental",
     "paper-cross",  "paper-cross-incremental"};
 
-/// Distance of a solution from another after a move, relative to what the move changes in that one.
-struct ShareOfMove {
-    double left;    ///< of the solutions
-    double missed;  ///< of the changes: a standing offset cancels
-};
-
 /// What one technique did after the last move.
 struct MoveOutcome {
     Update update;

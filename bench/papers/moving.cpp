@@ -5,6 +5,7 @@
 #include "atlas/near/still_part.h"
 #include "base/core/usage.h"
 #include "bench/papers/iteration_cost.h"
+#include "truth/metrics.h"
 
 namespace lumel::bench {
 
@@ -50,6 +51,20 @@ Image in_a_row(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
         texel[3] = lumels.lumels[i].flags & kLumelBuried ? 0.0f : 1.0f;
     }
     return row;
+}
+
+ShareOfMove share_of_move(const Lumels& lumels, const BeforeAndAfter& found,
+                          const BeforeAndAfter& wanted)
+{
+    std::vector<glm::vec3> followed = wanted.before;
+    for (std::size_t i = 0; i < followed.size(); ++i)
+        followed[i] += found.after[i] - found.before[i];
+    const Image row = in_a_row(lumels, wanted.after);
+    const auto from_wanted = [&](const std::vector<glm::vec3>& irradiance) {
+        return compare_maps(in_a_row(lumels, irradiance), row).relative_rmse;
+    };
+    const double change = from_wanted(wanted.before);
+    return {change, from_wanted(found.after) / change, from_wanted(followed) / change};
 }
 
 }  // namespace lumel::bench

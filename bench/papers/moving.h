@@ -50,4 +50,18 @@ Update update_after_move(LiveScene& live, std::uint32_t instance, const glm::mat
 /// H of lumels in a row, those that are not buried covered: for compare_maps().
 Image in_a_row(const Lumels& lumels, const std::vector<glm::vec3>& irradiance);
 
+/// H [N] before and after a move.
+struct BeforeAndAfter {
+    std::vector<glm::vec3> before, after;
+};
+
+/// Distance of a solution from another after a move.
+struct ShareOfMove {
+    double change;  ///< by the move in the other, relative RMSE
+    double left;    ///< distance of the solutions, relative to it
+    double missed;  ///< distance of the changes, relative to it: a standing offset cancels
+};
+ShareOfMove share_of_move(const Lumels& lumels, const BeforeAndAfter& found,
+                          const BeforeAndAfter& wanted);
+
 }  // namespace lumel::bench

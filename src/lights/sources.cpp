@@ -26,8 +26,8 @@ constexpr std::size_t kMaxPolygons = 12;
 /// with sides of at most kSmallMesh × the diagonal of the scene.
 constexpr std::size_t kMaxOfMesh = 64;
 constexpr float kSmallMesh = 0.02f;
-/// So does an emitter of up to kMaxOfMesh triangles closer than this × its radius: its light is
-/// then from few of them.
+/// Other emitters of at most kMaxOfMesh triangles use form factors closer than this × their radius:
+/// few of the triangles then send most of the light.
 constexpr float kNearMesh = 0.5f;
 /// Candidate triangles, of which one is chosen by its light here. [TCE05]
 constexpr std::uint32_t kCandidates = 4;

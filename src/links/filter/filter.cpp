@@ -62,12 +62,6 @@ std::vector<float> uncertain_in(const FilterChart& chart, const Estimates& one,
     return smoothed(chart, differs, kUncertainReach);
 }
 
-template <std::size_t Count>
-glm::vec3 estimate_of(const FitLight<Count>& light, std::size_t k)
-{
-    return {light[3 * k], light[3 * k + 1], light[3 * k + 2]};
-}
-
 }  // namespace
 
 ChartFilter::ChartFilter(const LinkWork& work, const SubLumels& parts,

@@ -22,6 +22,13 @@ namespace lumel {
 template <std::size_t Count>
 using FitLight = std::array<float, 3 * Count>;
 
+/// Estimate k of them.
+template <std::size_t Count>
+glm::vec3 estimate_of(const FitLight<Count>& light, std::size_t k)
+{
+    return {light[3 * k], light[3 * k + 1], light[3 * k + 2]};
+}
+
 /// Terms 1, u, v, u², u v, v² of a fit.
 inline constexpr std::size_t kFitTerms = 6;
 

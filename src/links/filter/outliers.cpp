@@ -13,8 +13,7 @@ namespace {
 constexpr float kOutlier = 8.0f;
 /// Lumels from which the light around is found; and the next ones, with the lumel itself.
 constexpr std::size_t kAround = 256, kNext = 9;
-/// A shared outlier adds this fraction to the light around, at most; and it is shared by at most
-/// this number of lumels.
+/// Fraction that a shared outlier adds to the light around; and the most lumels that share one.
 constexpr float kAdded = 0.02f;
 constexpr float kMostLumels = 4096.0f;
 
@@ -55,12 +54,6 @@ private:
     std::vector<std::uint32_t> found_;
 };
 
-template <std::size_t Count>
-glm::vec3 estimate_at(const FitLight<Count>& light, std::size_t k)
-{
-    return {light[3 * k], light[3 * k + 1], light[3 * k + 2]};
-}
-
 /// Mean luminance of estimates at some lumels, without estimate k of the first.
 template <std::size_t Count>
 float mean_beside(const std::vector<std::array<float, Count>>& light,
@@ -89,8 +82,8 @@ Outlier outlier_at(const std::vector<FitLight<Count>>& light, std::uint32_t texe
         level > 0.0f ? std::min(share / (float(Count) * kAdded * level), kMostLumels) : kMostLumels;
     glm::vec3 sum(0.0f), of_sum(0.0f);
     for (std::size_t other = 0; other < Count; ++other)
-        sum += estimate_at<Count>(light[texel], other);
-    const glm::vec3 shared = share * estimate_at<Count>(light[texel], k);
+        sum += estimate_of<Count>(light[texel], other);
+    const glm::vec3 shared = share * estimate_of<Count>(light[texel], k);
     for (glm::length_t c = 0; c < 3; ++c)
         of_sum[c] = sum[c] > 0.0f ? shared[c] / sum[c] : 0.0f;
     return {.texel = texel,
@@ -106,10 +99,13 @@ struct GivenLight {
     glm::vec3 light;
 };
 
+/// luminance: Outliers::luminance.
 template <std::size_t Count>
-void apply(const FilterChart& chart, const std::vector<GivenLight>& given,
-           const std::vector<float>& luminance, std::vector<FitLight<Count>>& light)
+void give(const FilterChart& chart, const std::vector<GivenLight>& given,
+          const std::vector<float>& luminance, std::vector<FitLight<Count>>& light)
 {
+    if (given.empty())
+        return;
     NearbyLumels nearby(chart);
     for (const GivenLight& one : given) {
         const std::vector<std::uint32_t>& around = nearby.of(one.texel, one.spread);
@@ -135,7 +131,7 @@ Outliers find_outliers(const FilterChart& chart, const std::vector<FitLight<Coun
     std::vector<std::array<float, Count>> bright(light.size());
     for (std::size_t t = 0; t < light.size(); ++t)
         for (std::size_t k = 0; k < Count; ++k)
-            bright[t][k] = float(luminance(estimate_at<Count>(light[t], k)));
+            bright[t][k] = float(luminance(estimate_of<Count>(light[t], k)));
     NearbyLumels nearby(chart);
     Outliers outliers;
     for (std::uint32_t t = 0; t < light.size(); ++t)
@@ -171,8 +167,8 @@ void spread_outliers(const FilterChart& chart, const Outliers& outliers,
     std::vector<GivenLight> given;
     for (const Outlier& one : outliers.all)
         given.push_back({one.texel, one.spread, 3 * one.estimate,
-                         one.share * estimate_at<Count>(light[one.texel], one.estimate)});
-    apply<Count>(chart, given, outliers.luminance, light);
+                         one.share * estimate_of<Count>(light[one.texel], one.estimate)});
+    give<Count>(chart, given, outliers.luminance, light);
 }
 
 template <std::size_t Count>
@@ -183,8 +179,8 @@ void spread_parts(const FilterChart& chart, const Outliers& outliers,
     for (const Outlier& one : outliers.all)
         for (std::size_t k = 0; k < Count; ++k)
             given.push_back({one.texel, one.spread, std::uint32_t(3 * k),
-                             one.of_sum * estimate_at<Count>(parts[one.texel], k)});
-    apply<Count>(chart, given, outliers.luminance, parts);
+                             one.of_sum * estimate_of<Count>(parts[one.texel], k)});
+    give<Count>(chart, given, outliers.luminance, parts);
 }
 
 template Outliers find_outliers<2>(const FilterChart&, const std::vector<FitLight<2>>&);

@@ -18,9 +18,9 @@ constexpr double kAdaptiveGain = 0.6;
 /// Rays of the second round, relative to those of the first, from which on they gain more by a
 /// guide than it takes to learn it.
 constexpr double kWorthAGuide = 0.25;
-/// Rays of the second round, relative to the limit if the target errors ask for more than that: the
-/// third shares out the others by what more rays have found. Charts with visible noise are known
-/// from the first.
+/// Fraction of the remaining rays that the second round sends if the target errors need all of
+/// them: the first round's errors are too rough to share out the rest. Where charts are noisy to
+/// the eye, one round did better.
 constexpr double kOfLimit = 0.3;
 /// Refines direct light if its variance is this multiple of its target; at most to kMinDirect × the
 /// present variance in one pass.
