@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "base/core/huge_pages.h"
 #include "bench/modes.h"
 
 namespace lumel::bench {
@@ -144,6 +145,7 @@ void add_method_options(CLI::App& app, Settings& settings)
 int main(int argc, char** argv)
 {
     using namespace lumel::bench;
+    lumel::use_huge_pages(argv);
     Settings settings;
     CLI::App app("Error against time for each method, on the same atlas");
     add_scene(app, settings);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/core/error.h"
+#include "base/core/huge_pages.h"
 #include "base/core/log.h"
 #include "base/ranks/ranks.h"
 #include "commands.h"
@@ -95,6 +96,7 @@ int run_rank(Ranks& ranks, int count, char** values)
 
 int main(int count, char** values)
 {
+    use_huge_pages(values);
     std::unique_ptr<Ranks> ranks;
     int code = kExitDone;
     try {

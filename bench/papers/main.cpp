@@ -14,6 +14,7 @@
 #include <fmt/core.h>
 
 #include "base/core/error.h"
+#include "base/core/huge_pages.h"
 #include "bench/papers/all.h"
 #include "bench/papers/commands.h"
 
@@ -57,6 +58,7 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    lumel::use_huge_pages(argv);
     try {
         return lumel::bench::run(argc, argv);
     } catch (const std::exception& error) {
