@@ -243,9 +243,12 @@ ChartNoise chart_noise(const NoiseChart& chart, const std::vector<float>& light,
 {
     const Grid open = open_surface(chart);
     ChartNoise noise;
-    for (std::size_t t = 0; t < open.value.size(); ++t)
+    for (std::size_t t = 0; t < open.value.size(); ++t) {
         if (open.value[t] > 0.0f)
             noise.lumels.push_back(chart.lumel[t]);
+        else if (chart.lumel[t] != kNoLumel && !chart.is_blocked[t])
+            noise.beside.push_back(chart.lumel[t]);
+    }
     const std::size_t count = noise.lumels.size();
     if (count < kFewest)
         return {};

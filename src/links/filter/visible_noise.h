@@ -34,13 +34,14 @@ using NoisePower = std::array<double, VisibleNoise::kBands>;
 /// Noise of one side of a chart.
 struct ChartNoise {
     std::vector<std::uint32_t> lumels;  ///< that count; none: too few to tell
+    std::vector<std::uint32_t> beside;  ///< the chart's other open ones, which the filter mixes in
     double light = 0.0;                 ///< their mean luminance [lx]
     std::vector<NoisePower> power;      ///< by each mean
 
     template <class Archive>
     void state(Archive& archive)
     {
-        archive(lumels, light, power);
+        archive(lumels, beside, light, power);
     }
 
     double power_in(std::size_t band) const;

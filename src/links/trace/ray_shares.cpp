@@ -120,6 +120,10 @@ std::vector<double> LinkRadiosity::chart_weights() const
                 std::max(double(luminance(arrived(i))), double(kFaintestAround) * chart.light);
             weight[i] = power / (light * light);
         }
+        for (const std::uint32_t i : chart.beside) {
+            const double light = std::max(double(luminance(arrived(i))), chart.light);
+            weight[i] = power / (light * light);
+        }
     }
     return weight;
 }
@@ -256,9 +260,11 @@ void LinkRadiosity::add_rays_of_charts(const std::vector<double>& sent,
         }
         if (!(of_deviations > 0.0))
             continue;
-        for (const std::uint32_t i : chart.lumels)
-            rays[i] = std::max(
-                rays[i], guided_rays(sent[i], ratio * sum / of_deviations * deviation[i], gain[i]));
+        for (const auto* lumels : {&chart.lumels, &chart.beside})
+            for (const std::uint32_t i : *lumels)
+                rays[i] = std::max(
+                    rays[i],
+                    guided_rays(sent[i], ratio * sum / of_deviations * deviation[i], gain[i]));
     }
 }
 
