@@ -22,7 +22,9 @@ std::string table_of(const std::string& folder, const RelightSummary& summary)
                                     stated ? "  estimated error [%]" : "");
     for (const StateRow& row : summary.states) {
         table += fmt::format("{:<{}}  {:>9.4f}  {:>9.4f}", row.name, width, row.light, row.files);
-        const std::string error = row.error >= 0.0 ? fmt::format("{:.2f}", 100.0 * row.error) : "–";
+        const double stated_error = row.eye_error >= 0.0 ? row.eye_error : row.error;
+        const std::string error =
+            stated_error >= 0.0 ? fmt::format("{:.2f}", 100.0 * stated_error) : "–";
         table += stated ? fmt::format("  {:>19}\n", error) : "\n";
     }
     return table + fmt::format("{}/states: {} states in {:.1f} s", folder, summary.states.size(),

@@ -30,10 +30,12 @@ std::string sentence_of(const UpdateSummary& summary)
     const UpdateRow& row = summary.row;
     if (!row.any())
         return changes_in(row);
-    const std::string error =
-        summary.error < 0.0
-            ? ""
-            : fmt::format(", estimated error of the map {:.2f} %", 100.0 * summary.error);
+    std::string error;
+    if (summary.eye_error >= 0.0)
+        error = fmt::format(", estimated error {:.2f} % of the light around ({:.2f} % overall)",
+                            100.0 * summary.eye_error, 100.0 * summary.error);
+    else if (summary.error >= 0.0)
+        error = fmt::format(", estimated error of the map {:.2f} %", 100.0 * summary.error);
     if (row.links > 0)
         return fmt::format("{}: traced {} of {} links in {:.1f} s{}", changes_in(row), row.rays,
                            row.links, summary.seconds, error);

@@ -118,6 +118,8 @@ Json json_of(const std::vector<StateRow>& states)
             state["estimated_error"] = row.error;
         if (row.dark_error >= 0.0)
             state["estimated_dark_error"] = row.dark_error;
+        if (row.eye_error >= 0.0)
+            state["estimated_eye_error"] = row.eye_error;
     }
     return json;
 }

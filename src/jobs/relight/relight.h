@@ -18,7 +18,8 @@ struct StateRow {
     std::string name;
     double light = 0.0;  ///< to light it [s]; states lit together share the time equally
     double files = 0.0;  ///< to finish and write its map [s]
-    double error = -1.0, dark_error = -1.0;  ///< as in SolverState; < 0: unknown
+    /// As in SolverState; < 0: unknown.
+    double error = -1.0, dark_error = -1.0, eye_error = -1.0;
 };
 
 /// For the report.

@@ -102,7 +102,8 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
                                   .light = found - start,
                                   .files = wall_seconds() - found,
                                   .error = light.state().error,
-                                  .dark_error = light.state().dark_error});
+                                  .dark_error = light.state().dark_error,
+                                  .eye_error = light.state().eye_error});
     }
     stages.end();
     if (!summary.states.empty())

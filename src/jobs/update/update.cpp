@@ -245,7 +245,13 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     const Json report = to_json(facts);
     write_json(output.path(kReportFile), report);
     output.commit();
-    return {row, record.error, stages.seconds(), stages.stopped(), json_text(report)};
+    const bool is_solved = row.links > 0 || row.solved_anew;
+    return {row,
+            record.error,
+            is_solved ? record.eye_error : -1.0,
+            stages.seconds(),
+            stages.stopped(),
+            json_text(report)};
 }
 
 }  // namespace lumel

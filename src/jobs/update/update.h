@@ -17,8 +17,9 @@ struct UpdateOptions {
 
 struct UpdateSummary {
     UpdateRow row;
-    double error = -1.0;   ///< estimated relative error of the map, < 0: unknown
-    double seconds = 0.0;  ///< total
+    double error = -1.0;      ///< estimated relative error of the map, < 0: unknown
+    double eye_error = -1.0;  ///< the same relative to the light around each lumel
+    double seconds = 0.0;     ///< total
     bool interrupted = false;
     std::string report;  ///< JSON of report.json
 };

@@ -1,6 +1,7 @@
 #include "results/measure/arriving_light.h"
 
 #include "atlas/lumels/sides.h"
+#include "atlas/prepare/lit_sides.h"
 #include "base/core/luminance.h"
 #include "base/core/pi.h"
 #include "lights/shadow_rays.h"
@@ -23,10 +24,11 @@ std::vector<glm::vec3> reflected_by(const Lumels& lumels, std::span<const glm::v
     return reflected;
 }
 
-/// [N] 1: lumel of an unlit back. Its chart's map shows the front, and the back receives next to
-/// nothing: little light enters a closed solid, through lumels that cross its edges.
-std::vector<char> dark_backs(const Atlas& atlas, const Lumels& lumels,
-                             std::span<const glm::vec3> irradiance)
+/// [N] 1: buried lumel, or one of an unlit back. The map of such a chart shows the front, and the
+/// back receives next to nothing: little light enters a closed solid, through lumels that cross its
+/// edges.
+std::vector<char> dark_lumels(const Atlas& atlas, const Lumels& lumels,
+                              std::span<const glm::vec3> irradiance)
 {
     struct Light {
         double side[2] = {0.0, 0.0};  // front, back [lm]
@@ -42,8 +44,9 @@ std::vector<char> dark_backs(const Atlas& atlas, const Lumels& lumels,
     for (std::size_t i = 0; i < irradiance.size(); ++i) {
         const Lumel& lumel = lumels.lumels[i];
         const Light& light = of_charts[lumel.chart];
-        dark.push_back(is_back(lumel) && !has_own_back(atlas.back_shift, lumel.chart) &&
-                       light.side[1] < kDark * light.side[0]);
+        const bool is_unlit = is_back(lumel) && !has_own_back(atlas.back_shift, lumel.chart) &&
+                              light.side[1] < kDark * light.side[0];
+        dark.push_back(is_unlit || (lumel.flags & kLumelBuried));
     }
     return dark;
 }
@@ -57,8 +60,17 @@ ArrivingLight::ArrivingLight(const Scene& scene, const RayScene& rays, const Atl
       sources_(scene, surfaces_, glm::distance(rays.low(), rays.high())),
       hits_(scene, atlas, lumels),
       reflected_(reflected_by(lumels, irradiance)),
-      dark_(dark_backs(atlas, lumels, irradiance))
+      dark_(dark_lumels(atlas, lumels, irradiance)),
+      atlas_(atlas),
+      inner_(with_inner_sides(scene, rays, atlas).inner),
+      first_surface_(first_surfaces(atlas, scene.instances.size()))
 {
+}
+
+bool ArrivingLight::is_inner(const RayHit& hit) const
+{
+    const Surface& surface = atlas_.surfaces[first_surface_[hit.instance] + hit.primitive];
+    return inner_[surface.chart[hit.triangle]][hit.front ? 0 : 1];
 }
 
 MetLight ArrivingLight::met_along(const glm::vec3& position, const glm::vec3& direction,
@@ -74,10 +86,10 @@ MetLight ArrivingLight::met_along(const glm::vec3& position, const glm::vec3& di
         return {};
     }
     const std::uint32_t lumel = hits_.lumel(hit);
+    if (is_inner(hit) || (lumel != HitLumels::kNone && dark_[lumel]))
+        ++backs;
     if (lumel == HitLumels::kNone)
         return {};
-    if (dark_[lumel])
-        ++backs;
     return {.light = hit.tint * reflected_[lumel], .lumel = lumel, .tint = hit.tint};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Incoming light at points of a solved scene, along rays and from sampled sources.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,7 +38,8 @@ public:
     }
 
     /// Light along a ray. backs: counts rays from the inside of objects:
-    /// those that hit the back of a single-sided surface, or an unlit back of a double-sided one.
+    /// those that hit the back of a single-sided surface, an unlit or inner side of a double-sided
+    /// one, or a buried lumel.
     MetLight met_along(const glm::vec3& position, const glm::vec3& direction, std::uint32_t seed,
                        std::uint32_t& backs) const;
 
@@ -53,12 +55,17 @@ public:
     }
 
 private:
+    bool is_inner(const RayHit& hit) const;
+
     const RayScene& rays_;
     Surfaces surfaces_;
     LightSources sources_;
     HitLumels hits_;
     std::vector<glm::vec3> reflected_;  ///< [N] ρ H [lm/m²], 0 of buried lumels
-    std::vector<char> dark_;            ///< [N] 1: lumel of an unlit back
+    std::vector<char> dark_;            ///< [N] 1: buried, or of an unlit back
+    const Atlas& atlas_;
+    std::vector<std::array<bool, 2>> inner_;  ///< [charts] as Atlas::inner
+    std::vector<std::size_t> first_surface_;  ///< [instances]
 };
 
 }  // namespace lumel

@@ -143,8 +143,6 @@ bool ScriptPlayer::write(const ScriptCommand& command)
         write_png(output_->path(command.text), session_->picture());
         break;
     case Verb::window:
-        if (!window_)
-            throw Error(ErrorKind::input, "", "there is no window with --headless");
         write_png(output_->path(command.text), window_());
         break;
     case Verb::save:

@@ -22,6 +22,15 @@ Animation animation_for(const std::vector<ScriptCommand>& script, const ScriptRu
     return {};
 }
 
+/// Throws Error{input} if the script asks for a picture of the window.
+void check_needs_no_window(const std::vector<ScriptCommand>& script, const std::string& path)
+{
+    for (const ScriptCommand& command : script)
+        if (command.form->verb == Verb::window)
+            throw Error(ErrorKind::input, line_of(path, command.line),
+                        "there is no window with --headless; \"picture\" needs none");
+}
+
 }  // namespace
 
 Scene scene_to_view(const std::string& path, const Animation& animation,
@@ -66,6 +75,7 @@ ViewSummary play_script(const ScriptRun& run, const SessionOptions& options,
     Stages stages(progress);
     stages.begin("reading");
     std::vector<ScriptCommand> script = script_of(run.script);
+    check_needs_no_window(script, run.script);
     const Animation animation = animation_for(script, run, options);
     Scene scene = scene_to_view(run.scene, animation, options);
     OutputFolder output(run.folder);

@@ -194,3 +194,28 @@ TEST(LightMeter, APointInsideOfAClosedBoxIsSaidToBeInside)
     EXPECT_FALSE(room.read({{0.0f, 1.5f, 0.0f}}).inside);
     EXPECT_FALSE(room.read({{0.6f, 0.5f, 0.0f}}).inside);
 }
+
+// As Blender exports rooms: each wall a box of two-sided faces, its outside as dark as its inside.
+TEST(LightMeter, APointInsideOfATwoSidedWallIsSaidToBeInside)
+{
+    std::vector<Quad> faces;
+    const auto add_wall = [&](const glm::vec3& low, const glm::vec3& high) {
+        for (const Quad& face : support::box_walls(low, high, false, {.double_sided = true}))
+            faces.push_back(face);
+    };
+    add_wall({-0.2f, -0.2f, -0.2f}, {4.2f, 0.0f, 4.2f});
+    add_wall({-0.2f, 3.0f, -0.2f}, {4.2f, 3.2f, 4.2f});
+    add_wall({-0.2f, 0.0f, 0.0f}, {0.0f, 3.0f, 4.0f});
+    add_wall({4.0f, 0.0f, 0.0f}, {4.2f, 3.0f, 4.0f});
+    add_wall({-0.2f, 0.0f, -0.2f}, {4.2f, 3.0f, 0.0f});
+    add_wall({-0.2f, 0.0f, 4.0f}, {4.2f, 3.0f, 4.2f});
+    const MeteredRoom room(faces, 100.0f, [](Scene& scene) {
+        scene.lights.push_back(
+            support::make_lamp(PunctualLight::Kind::point, 100.0f, {2.0f, 2.5f, 2.0f}));
+    });
+    for (const float z : {0.1f, 1.0f, 2.0f, 3.9f}) {
+        EXPECT_TRUE(room.read({{-0.1f, 0.75f, z}}).inside) << z;
+        EXPECT_TRUE(room.read({{4.04f, 0.75f, z}}).inside) << z;
+        EXPECT_FALSE(room.read({{0.1f, 0.75f, z}}).inside) << z;
+    }
+}
