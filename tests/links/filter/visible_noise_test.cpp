@@ -88,7 +88,9 @@ TEST(VisibleNoise, LeavesOutRimsAndWhatIsNearGeometry)
             if (is_rim || from_post <= 8)
                 mean.apart[chart.at(x, y)].x = (x + y) % 2 == 0 ? kLight : -kLight;
         }
-    EXPECT_EQ(chart_noise(chart, kEven, {&mean}).power_in(0), 0.0);
+    const ChartNoise noise = chart_noise(chart, kEven, {&mean});
+    EXPECT_EQ(noise.power_in(0), 0.0);
+    EXPECT_EQ(noise.lumels.size() + noise.beside.size(), kEven.size() - 1) << "all but the post";
     chart.is_blocked.assign(chart.is_blocked.size(), 0);
     EXPECT_GT(chart_noise(chart, kEven, {&mean}).power_in(0), 0.0);
 }
@@ -97,7 +99,7 @@ TEST(VisibleNoise, TheWorstChartIsTheOneBelowWhichMostChartsAre)
 {
     const auto chart = [](std::size_t lumels, double light, double band) {
         return ChartNoise{
-            std::vector<std::uint32_t>(lumels), light, {{band * band, 0.0, 0.0, 0.0}}};
+            std::vector<std::uint32_t>(lumels), {}, light, {{band * band, 0.0, 0.0, 0.0}}};
     };
     const VisibleNoise noise =
         visible_noise(in_order({chart(4, 1.0, 0.5), chart(800, 1.0, 0.01), chart(160, 1.0, 0.02),
