@@ -24,8 +24,7 @@ int run(const BakeArguments& arguments, Ranks* ranks)
             write_page(page_in(arguments.folder), std::array{arguments.folder});
         std::string error;
         if (summary.eye_error >= 0.0)
-            error = fmt::format(", estimated error {:.2f} % of the light around ({:.2f} % overall)",
-                                100.0 * summary.eye_error, 100.0 * summary.error);
+            error = ", " + eye_error_text(summary.eye_error, summary.error);
         else if (summary.error >= 0.0)
             error = fmt::format(", estimated error {:.2f} %", 100.0 * summary.error);
         if (summary.visible_noise.worst_chart >= 0.0)

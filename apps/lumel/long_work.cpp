@@ -13,6 +13,12 @@
 
 namespace lumel {
 
+std::string eye_error_text(double eye_error, double error)
+{
+    return fmt::format("estimated error {:.2f} % of the light around ({:.2f} % overall)",
+                       100.0 * eye_error, 100.0 * error);
+}
+
 int do_long_work(const Talk& talk, int batch,
                  const std::function<Conclusion(const ProgressFunction&)>& work)
 {

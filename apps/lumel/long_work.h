@@ -15,6 +15,9 @@ struct Conclusion {
     bool interrupted = false;
 };
 
+/// "estimated error 2.25 % of the light around (8.72 % overall)", of two fractions.
+std::string eye_error_text(double eye_error, double error);
+
 /// Does long work: a progress line shows how far it is, Ctrl-C stops it early, and stdout
 /// gets its conclusion as `talk` wants it. `batch`: shooters per iteration; 0 where nothing is
 /// shot. Returns the exit code; throws what `work` throws.

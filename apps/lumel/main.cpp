@@ -96,7 +96,10 @@ int run_rank(Ranks& ranks, int count, char** values)
 
 int main(int count, char** values)
 {
-    use_huge_pages(values);
+    constexpr int kWithArguments =
+        3;  // program, command, arguments: help and lists need little memory
+    if (count >= kWithArguments)
+        use_huge_pages(values);
     std::unique_ptr<Ranks> ranks;
     int code = kExitDone;
     try {

@@ -32,8 +32,7 @@ std::string sentence_of(const UpdateSummary& summary)
         return changes_in(row);
     std::string error;
     if (summary.eye_error >= 0.0)
-        error = fmt::format(", estimated error {:.2f} % of the light around ({:.2f} % overall)",
-                            100.0 * summary.eye_error, 100.0 * summary.error);
+        error = ", " + eye_error_text(summary.eye_error, summary.error);
     else if (summary.error >= 0.0)
         error = fmt::format(", estimated error of the map {:.2f} %", 100.0 * summary.error);
     if (row.links > 0)

@@ -389,15 +389,22 @@ std::vector<ChartSides> light_on_sides(const Scene& scene, const RayScene& rays,
     return found;
 }
 
-Atlas with_inner_sides(const Scene& scene, const RayScene& rays, Atlas atlas)
+std::vector<std::array<bool, 2>> find_inner_sides(const Scene& scene, const RayScene& rays,
+                                                  const Atlas& atlas)
 {
     std::vector<std::vector<TriangleOf>> charts(atlas.chart_count);
     for (const Surface& surface : atlas.surfaces)
         for (std::uint32_t t = 0; t < surface.chart.size(); ++t)
             charts[surface.chart[t]].push_back({surface.instance, surface.primitive, t});
-    atlas.inner.clear();
+    std::vector<std::array<bool, 2>> inner;
     for (const ChartSides& sides : light_on_sides(scene, rays, charts))
-        atlas.inner.push_back(sides.inner);
+        inner.push_back(sides.inner);
+    return inner;
+}
+
+Atlas with_inner_sides(const Scene& scene, const RayScene& rays, Atlas atlas)
+{
+    atlas.inner = find_inner_sides(scene, rays, atlas);
     return atlas;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Light on the two sides of double-sided charts.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -18,7 +19,9 @@ std::vector<ChartSides> light_on_sides(const Scene& scene, const RayScene& rays,
                                        std::span<const std::vector<TriangleOf>> charts,
                                        bool daylit = false);
 
-/// An atlas with its Atlas::inner, which one out of a file lacks.
+/// Atlas::inner of an atlas, which one out of a file lacks; and the atlas with it.
+std::vector<std::array<bool, 2>> find_inner_sides(const Scene& scene, const RayScene& rays,
+                                                  const Atlas& atlas);
 Atlas with_inner_sides(const Scene& scene, const RayScene& rays, Atlas atlas);
 
 /// Argument of make_atlas for these sides. `rays` must outlive it. daylit: as above.

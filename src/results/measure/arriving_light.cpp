@@ -62,7 +62,7 @@ ArrivingLight::ArrivingLight(const Scene& scene, const RayScene& rays, const Atl
       reflected_(reflected_by(lumels, irradiance)),
       dark_(dark_lumels(atlas, lumels, irradiance)),
       atlas_(atlas),
-      inner_(with_inner_sides(scene, rays, atlas).inner),
+      inner_(find_inner_sides(scene, rays, atlas)),
       first_surface_(first_surfaces(atlas, scene.instances.size()))
 {
 }

@@ -16,7 +16,7 @@ namespace lumel {
 class ScriptPlayer {
 public:
     /// script: read from `path`. folder: target of `output`. window: returns the window's image;
-    /// empty: no window. All arguments must outlive this.
+    /// empty: no window, and the script asks for none. All arguments must outlive this.
     ScriptPlayer(std::vector<ScriptCommand> script, std::string path, ViewSession& session,
                  OutputFolder& output, std::string folder, std::function<Image()> window = {});
 
