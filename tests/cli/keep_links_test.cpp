@@ -148,6 +148,20 @@ TEST(KeepLinks, RelightIsANewBakeOfTheChangedScene)
     expect_error(2, sky);
 }
 
+// Lumels inside of the blocks are buried by both.
+TEST(KeepLinks, ABoxOfTwoSidedBlocksIsRelitAsItWasBaked)
+{
+    const Box box;
+    const std::string folder = box.bake("out", [](Json& scene) {
+        for (Json& material : scene["materials"])
+            material["doubleSided"] = true;
+    });
+    const Outcome outcome = box.relight(folder, {{"states", {{{"name", "as baked"}}}}});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    expect_few_traced(Json::parse(outcome.out));
+    expect_equal(folder + "/states/as baked.exr", folder + "/lightmap.exr");
+}
+
 /// The report's row of an update.
 Json update(const Box& box, const std::string& folder, const Edit& edit)
 {

@@ -144,15 +144,16 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
       balls(changed_balls(before.scene, scene_now, matches)),
       now(
           std::move(scene_now),
-          [&](const Scene& scene, const RayScene&, const ProgressCallback&) {
-              return kept_atlas(before.scene, before.atlas, scene, matches, baked.atlas.gutter);
+          [&](const Scene& scene, const RayScene& rays, const ProgressCallback&) {
+              Atlas kept =
+                  kept_atlas(before.scene, before.atlas, scene, matches, baked.atlas.gutter);
+              return as_a_bake ? with_inner_sides(scene, rays, std::move(kept)) : kept;
           },
-          [&](const Scene& scene, const RayScene& rays, const Atlas& atlas, Lumels& lumels,
-              const ProgressCallback&) {
-              return as_a_bake
-                         ? mark_buried(scene, rays, with_inner_sides(scene, rays, atlas), lumels)
-                         : bury_anew(scene, rays, atlas, solution, lumels);
-          }),
+          as_a_bake ? SolveScene::Bury()
+                    : [&](const Scene& scene, const RayScene& rays, const Atlas& atlas,
+                          Lumels& lumels, const ProgressCallback&) {
+                          return bury_anew(scene, rays, atlas, solution, lumels);
+                      }),
       same(same_lumels(*this)),
       partner(partners(*this, same))
 {

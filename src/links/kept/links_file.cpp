@@ -34,8 +34,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
-// 7: rays of hidden points have ends
-constexpr std::uint64_t kVersion = 7;
+// 8: has the inner sides of charts
+constexpr std::uint64_t kVersion = 8;
 constexpr std::uint32_t kMaxSide = 65536;  ///< side of an atlas [texels]
 constexpr std::uint32_t kWord = 64;        ///< [bits]
 
@@ -107,8 +107,8 @@ template <class Archive>
 void contents(Archive& archive, StoredLinks& kept, Words& links)
 {
     archive(kept.scene_hash, kept.seed, kept.shared_directions, kept.ray_offset, kept.side,
-            kept.texels_per_metre, kept.charts, kept.shows_front, kept.back_shift, kept.sheets,
-            kept.instances, kept.boxes, kept.lumels, kept.guide, kept.rounds, links);
+            kept.texels_per_metre, kept.charts, kept.shows_front, kept.back_shift, kept.inner,
+            kept.sheets, kept.instances, kept.boxes, kept.lumels, kept.guide, kept.rounds, links);
 }
 
 bool is_in(const glm::vec2& place, std::uint32_t side)
@@ -151,6 +151,7 @@ bool is_sound(const StoredLinks& kept, const Words& links)
                        [&](const StoredLinks::Round& round) { return is_sound(round, kept); }) &&
            (kept.back_shift.empty() || kept.back_shift.size() == kept.charts) &&
            std::all_of(kept.back_shift.begin(), kept.back_shift.end(), within) &&
+           (kept.inner.empty() || kept.inner.size() == kept.charts) &&
            std::all_of(
                kept.sheets.begin(), kept.sheets.end(),
                [&](const StoredLinks::StoredTexcoords& sheet) { return is_sound(sheet, kept); }) &&

@@ -13,6 +13,9 @@ namespace {
                 "has other surfaces than its stored links; bake the scene again");
 }
 
+/// Bits of StoredLinks::inner.
+constexpr std::uint8_t kInnerFront = 1, kInnerBack = 2;
+
 constexpr LinkEnd kToTrace{LinkNumbers::kNear << LinkEnd::kCellBits};
 
 /// [numbers of kept] New number of each end of a link.
@@ -115,6 +118,9 @@ void keep_places(const Atlas& atlas, StoredLinks& kept)
     kept.texels_per_metre = atlas.texels_per_metre;
     kept.charts = atlas.chart_count;
     kept.back_shift = atlas.back_shift;
+    kept.inner.clear();
+    for (const auto& [front, back] : atlas.inner)
+        kept.inner.push_back(std::uint8_t((front ? kInnerFront : 0) | (back ? kInnerBack : 0)));
     kept.shows_front = atlas.shows_front ? 1 : 0;
     for (const Surface& surface : atlas.surfaces)
         kept.sheets.push_back({surface.texcoord, surface.chart, surface.authored ? 1u : 0u});
@@ -130,6 +136,8 @@ Atlas atlas_of(const StoredLinks& kept, const Scene& scene, const Pages& pages)
     atlas.texels_per_metre = kept.texels_per_metre;
     atlas.chart_count = kept.charts;
     atlas.back_shift = kept.back_shift;
+    for (const std::uint8_t sides : kept.inner)
+        atlas.inner.push_back({(sides & kInnerFront) != 0, (sides & kInnerBack) != 0});
     atlas.shows_front = kept.shows_front != 0;
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Mesh& mesh = scene.meshes[std::size_t(scene.instances[i].mesh)];

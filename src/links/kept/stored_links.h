@@ -63,7 +63,8 @@ struct StoredLinks {
     float texels_per_metre = 0.0f;
     std::uint32_t charts = 0;
     std::vector<glm::ivec2> back_shift;  ///< as in Atlas
-    std::uint32_t shows_front = 0;       ///< 1: as in Atlas
+    std::vector<std::uint8_t> inner;  ///< [charts] bits of Atlas::inner: 1 front, 2 back; or empty
+    std::uint32_t shows_front = 0;    ///< 1: as in Atlas
 
     /// Throws Error{input} if there are too many.
     LinkNumbers numbers() const { return {instances.size(), lumels.size()}; }
@@ -88,10 +89,10 @@ struct Renumbering {
 /// texture coordinates.
 StoredLinks renumbered(const StoredLinks& kept, const Renumbering& now);
 
-/// Copies the texture coordinates of an atlas.
+/// Copies what an atlas has beside the triangles of the scene: texture coordinates, sides.
 void keep_places(const Atlas& atlas, StoredLinks& kept);
 
-/// The atlas with the stored texture coordinates. scene: as write_scene_glb wrote it from that
+/// The atlas of keep_places(). scene: as write_scene_glb wrote it from that
 /// atlas. pages: of that atlas. Throws Error{input} if its surfaces or size differ.
 Atlas atlas_of(const StoredLinks& kept, const Scene& scene, const Pages& pages);
 
