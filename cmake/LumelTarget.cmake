@@ -44,15 +44,18 @@ foreach(line ${lines})
 endforeach()
 
 # lumel_test(<name> [LABEL <label>] SOURCES … USES <wing> … [PARTS "<part> <label> <filter>" …]
-#            [UNDER <command> <argument> …] [SANITIZE]):
+#            [UNDER <command> <argument> …] [JOINT] [SANITIZE]):
 # one GoogleTest program under tests/ and what ctest runs of it. A part is the tests of a filter
 # (that of --gtest_filter) in a process of their own; what no part has is one more, of the program's name.
-# UNDER: what ctest runs the program by. SANITIZE: `./test --sanitize` runs what is not slow of it.
+# UNDER: what ctest runs the program by. JOINT: has many sources, which are compiled jointly. SANITIZE: `./test --sanitize` runs what is not slow of it.
 # Labels: `quick` ends in a minute with all others of its kind, `normal`, and `slow`.
 function(lumel_test name)
-    cmake_parse_arguments(TEST "SANITIZE" "LABEL" "SOURCES;USES;SYSTEM;PARTS;UNDER" ${ARGN})
+    cmake_parse_arguments(TEST "JOINT;SANITIZE" "LABEL" "SOURCES;USES;SYSTEM;PARTS;UNDER" ${ARGN})
     add_executable(${name} ${TEST_SOURCES})
     lumel_flags(${name} HEADERS lumel_test_headers)
+    if(TEST_JOINT)
+        lumel_joint(${name})
+    endif()
     list(TRANSFORM TEST_USES PREPEND lumel_)
     target_link_libraries(${name} PRIVATE ${TEST_USES} ${TEST_SYSTEM} lumel_test_support
                                           GTest::gtest GTest::gtest_main)

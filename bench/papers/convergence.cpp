@@ -42,7 +42,7 @@ struct Step {
 };
 
 /// An iteration that is followed.
-struct Scheme {
+struct Course {
     std::string name;  ///< in the table
     std::string word;  ///< in names of files
     SolverOptions options;
@@ -54,9 +54,9 @@ bool is_glossy(const Settings& settings)
 }
 
 /// The papers' that solve the scene's materials, and the default of the method that is given.
-std::vector<Scheme> schemes_of(const Settings& settings)
+std::vector<Course> courses_of(const Settings& settings)
 {
-    std::vector<Scheme> schemes;
+    std::vector<Course> schemes;
     if (!is_glossy(settings)) {
         auto own = options_of<StochasticOptions>(settings);
         if (settings.given.values.count("projection") == 0)
@@ -159,7 +159,7 @@ Cell by_our_default(const gpu::Device& device, const SolveScene& world,
     return words_of(error_of(map_of(world, ours), truth).relative_rmse, ours.cpu);
 }
 
-void add_row(Report& report, const Scheme& scheme, const SolverState& state, double cpu,
+void add_row(Report& report, const Course& scheme, const SolverState& state, double cpu,
              const std::optional<MapError>& error)
 {
     report.row({scheme.name, state.iterations, batch_of(scheme.options.method), state.shots,
@@ -168,7 +168,7 @@ void add_row(Report& report, const Scheme& scheme, const SolverState& state, dou
 }
 
 /// Nothing is shown without a folder.
-Row follow(const ConvergenceSettings& settings, const Scheme& scheme, const gpu::Device& device,
+Row follow(const ConvergenceSettings& settings, const Course& scheme, const gpu::Device& device,
            const SolveScene& world, const std::vector<Image>& truth, Report& report)
 {
     const SolverOptions& options = scheme.options;
@@ -230,7 +230,7 @@ void follow_convergence(const ConvergenceSettings& settings, Report& report)
                  by_our_default(device, world, truth));
     std::vector<std::vector<Image>> maps, pictures;
     std::string names;
-    for (const Scheme& scheme : schemes_of(settings.shared)) {
+    for (const Course& scheme : courses_of(settings.shared)) {
         Row row = follow(settings, scheme, device, world, truth, report);
         maps.push_back(std::move(row.maps));
         pictures.push_back(std::move(row.pictures));

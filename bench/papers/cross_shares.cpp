@@ -21,7 +21,7 @@ struct TimedMove {
     double cpu_ms = 0.0;
 };
 
-TimedMove from_scratch(const gpu::Device& device, const Stage& stage)
+TimedMove solved_anew(const gpu::Device& device, const Stage& stage)
 {
     TimedMove solved;
     const auto at = [&](const glm::mat4& place) {
@@ -64,21 +64,20 @@ void measure(const gpu::Device& device, const std::string& scene, const Stage& s
                     fixed(100.0 * share.left * share.change, 3), fixed(100.0 * share.left, 0),
                     fixed(100.0 * share.missed, 0), fixed(found.cpu_ms, 0)});
     };
-    const TimedMove scratch = from_scratch(device, stage);
+    const TimedMove scratch = solved_anew(device, stage);
     const auto add = [&](const char* what, const auto& change_options, bool of_both) {
         Stage changed = stage;
         change_options(changed.options);
-        add_row(what, by_cross(device, changed), of_both ? from_scratch(device, changed) : scratch);
+        add_row(what, by_cross(device, changed), of_both ? solved_anew(device, changed) : scratch);
     };
     add(
         "cross", [](LiveOptions&) {}, false);
     Stage own = stage;
     own.options.redistribution = Redistribution::cross;
-    add_row("cross, against cross from scratch", by_cross(device, stage),
-            from_scratch(device, own));
+    add_row("cross, against cross from scratch", by_cross(device, stage), solved_anew(device, own));
     Stage other = stage;
     ++other.options.solver.seed;
-    add_row("progressive, lumels receive at other points", from_scratch(device, other), scratch);
+    add_row("progressive, lumels receive at other points", solved_anew(device, other), scratch);
     add(
         "lamps shoot from the solution's points",
         [](LiveOptions& options) {
@@ -97,14 +96,14 @@ void measure(const gpu::Device& device, const std::string& scene, const Stage& s
     Stage finer = stage;
     finer.options.solver.views.hemicube *= kFiner;
     finer.options.solver.shooters *= kMore;
-    const TimedMove fine = from_scratch(device, finer);
+    const TimedMove fine = solved_anew(device, finer);
     add_row("cross, against progressive with both", by_cross(device, stage), fine);
     add_row("progressive, against progressive with both", scratch, fine);
     add_row("incremental, against progressive with both",
             followed(device, stage, Redistribution::incremental), fine);
     other = finer;
     ++other.options.solver.seed;
-    add_row("progressive with both, lumels receive at other points", from_scratch(device, other),
+    add_row("progressive with both, lumels receive at other points", solved_anew(device, other),
             fine);
     finer.options.cross.lamp_points = std::numeric_limits<std::uint32_t>::max();
     add_row("cross with both and all lamp points, against progressive with both",

@@ -9,8 +9,8 @@
 namespace lumel::bench {
 namespace {
 
-constexpr int kRefinements = 3;
-constexpr float kFullTexel = 255.0f;
+constexpr int kGrayRefinements = 3;
+constexpr float kFullGray = 255.0f;
 constexpr int kIndices = 8;
 
 using Palette = std::array<float, kIndices>;
@@ -26,20 +26,20 @@ Palette palette_of(int first, int second)
             (float(between + 1 - k) * a + float(k) * b) / float(between + 1);
     if (between == 4) {
         values[6] = 0.0f;
-        values[7] = kFullTexel;
+        values[7] = kFullGray;
     }
     return values;
 }
 
-struct Choice {
+struct GrayChoice {
     int first = 0, second = 0;
     std::array<int, kBlockTexels> index{};
     float error = 0.0f;
 };
 
-Choice choose(const GrayBlock& texels, int first, int second)
+GrayChoice choose(const GrayBlock& texels, int first, int second)
 {
-    Choice choice{first, second};
+    GrayChoice choice{first, second};
     const Palette palette = palette_of(first, second);
     for (std::size_t i = 0; i < kBlockTexels; ++i) {
         float best = INFINITY;
@@ -57,11 +57,11 @@ Choice choose(const GrayBlock& texels, int first, int second)
 
 int quantise(float value)
 {
-    return int(std::lround(std::clamp(value, 0.0f, kFullTexel)));
+    return int(std::lround(std::clamp(value, 0.0f, kFullGray)));
 }
 
 /// Endpoints that fit the chosen indices best, by least squares; texels at 0 or 255 apart.
-Choice refine(const GrayBlock& texels, const Choice& choice)
+GrayChoice refine(const GrayBlock& texels, const GrayChoice& choice)
 {
     const bool six = choice.first > choice.second;
     float aa = 0.0f, ab = 0.0f, bb = 0.0f, ax = 0.0f, bx = 0.0f;
@@ -85,14 +85,14 @@ Choice refine(const GrayBlock& texels, const Choice& choice)
     int second = quantise((aa * bx - ab * ax) / determinant);
     if ((first > second) != six)
         std::swap(first, second);
-    const Choice next = choose(texels, first, second);
+    const GrayChoice next = choose(texels, first, second);
     return next.error < choice.error ? next : choice;
 }
 
-Choice best_from(const GrayBlock& texels, int first, int second)
+GrayChoice best_from(const GrayBlock& texels, int first, int second)
 {
-    Choice best = choose(texels, first, second);
-    for (int step = 0; step < kRefinements; ++step)
+    GrayChoice best = choose(texels, first, second);
+    for (int step = 0; step < kGrayRefinements; ++step)
         best = refine(texels, best);
     return best;
 }
@@ -101,16 +101,16 @@ Choice best_from(const GrayBlock& texels, int first, int second)
 
 BlockWords encode_bc4(const GrayBlock& texels)
 {
-    float low = kFullTexel, high = 0.0f, low_inside = kFullTexel;
+    float low = kFullGray, high = 0.0f, low_inside = kFullGray;
     for (const float value : texels) {
         low = std::min(low, value);
         high = std::max(high, value);
         if (value > 0.0f)
             low_inside = std::min(low_inside, value);
     }
-    Choice best = best_from(texels, quantise(high), quantise(low));
+    GrayChoice best = best_from(texels, quantise(high), quantise(low));
     if (low <= 0.0f && high > 0.0f) {  // 0 for itself, the rest in finer steps
-        const Choice apart = best_from(texels, quantise(low_inside), quantise(high));
+        const GrayChoice apart = best_from(texels, quantise(low_inside), quantise(high));
         if (apart.error < best.error)
             best = apart;
     }

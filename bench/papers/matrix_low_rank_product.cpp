@@ -6,14 +6,14 @@
 namespace lumel::bench {
 namespace {
 
-using Words = std::vector<std::uint32_t>;
+using HalfWords = std::vector<std::uint32_t>;
 
 /// Half floats at(row, column) as RowsProduct reads them.
 template <class At>
-Words to_words(std::uint32_t rows, std::uint32_t columns, const At& at)
+HalfWords to_words(std::uint32_t rows, std::uint32_t columns, const At& at)
 {
     const std::size_t width = filled_up(columns);
-    Words words(filled_up(rows) * width / 2);
+    HalfWords words(filled_up(rows) * width / 2);
     for (std::size_t row = 0; row < rows; ++row)
         for (std::size_t column = 0; column < columns; ++column) {
             const std::size_t place = row * width + column;
@@ -31,7 +31,7 @@ gpu::Array<float> zeros(const gpu::Device& device, std::size_t count,
 
 RowsProduct see(const gpu::Device& device, const LowRankMatrix& matrix)
 {
-    const Words words = to_words(matrix.rank, matrix.size, [&](std::size_t k, std::size_t i) {
+    const HalfWords words = to_words(matrix.rank, matrix.size, [&](std::size_t k, std::size_t i) {
         return matrix.basis[k * matrix.size + i];
     });
     return {device,      Code::float16, std::span(&words, 1),
@@ -40,7 +40,7 @@ RowsProduct see(const gpu::Device& device, const LowRankMatrix& matrix)
 
 RowsProduct send(const gpu::Device& device, const LowRankMatrix& matrix)
 {
-    const Words words = to_words(matrix.size, matrix.rank, [&](std::size_t i, std::size_t k) {
+    const HalfWords words = to_words(matrix.size, matrix.rank, [&](std::size_t i, std::size_t k) {
         return matrix.basis[k * matrix.size + i];
     });
     return {device,      Code::float16, std::span(&words, 1),
@@ -49,7 +49,7 @@ RowsProduct send(const gpu::Device& device, const LowRankMatrix& matrix)
 
 RowsProduct core(const gpu::Device& device, const LowRankMatrix& matrix)
 {
-    std::array<Words, 3> words;
+    std::array<HalfWords, 3> words;
     for (std::size_t c = 0; c < 3; ++c)
         words[c] = to_words(matrix.rank, matrix.rank, [&](std::size_t k, std::size_t l) {
             return matrix.core[c][k * matrix.rank + l];

@@ -39,7 +39,7 @@ constexpr const char* kTimes =
     "Ratios of times are of wall time on a GPU, and of processor time where the device is the "
     "processor, whose wall time other work lengthens.";
 
-std::string escaped(const std::string& text)
+std::string escaped_for_html(const std::string& text)
 {
     std::string result;
     for (const char c : text)
@@ -67,7 +67,7 @@ std::string element(const char* name, const std::string& content,
                     const std::string& attributes = {})
 {
     return fmt::format("<{}{}{}>{}</{}>", name, attributes.empty() ? "" : " ", attributes,
-                       escaped(content), name);
+                       escaped_for_html(content), name);
 }
 
 template <class Texts>
@@ -145,8 +145,8 @@ std::string html_of(const Table& table, const std::string&)
 std::string html_of(const Picture& picture, const std::string& folder)
 {
     const std::string path = std::filesystem::proximate(picture.path, folder).generic_string();
-    return fmt::format("<figure><img src=\"{}\" alt=\"{}\"/>{}</figure>\n", escaped(path),
-                       escaped(picture.caption), element("figcaption", picture.caption));
+    return fmt::format("<figure><img src=\"{}\" alt=\"{}\"/>{}</figure>\n", escaped_for_html(path),
+                       escaped_for_html(picture.caption), element("figcaption", picture.caption));
 }
 
 std::string section_of(const Run& run, const Outcome& outcome, Extent extent,
@@ -165,7 +165,7 @@ std::string section_of(const Run& run, const Outcome& outcome, Extent extent,
     return page;
 }
 
-const char* words_of(Extent extent)
+const char* name_of(Extent extent)
 {
     switch (extent) {
     case Extent::tiny:
@@ -184,7 +184,7 @@ const char* words_of(Extent extent)
 std::string page_of(const Outcomes& outcomes, Extent extent, const std::string& folder)
 {
     std::string page = kHead + element("h1", "The papers' figures, made again") + "\n" +
-                       element("p", words_of(extent)) + "\n" + element("p", kTimes) + "\n" +
+                       element("p", name_of(extent)) + "\n" + element("p", kTimes) + "\n" +
                        element("p", kColours) + "\n" + element("p", kDefaults) + "\n" +
                        comparison_of(outcomes) + left_out();
     for (const Run& run : all_runs())

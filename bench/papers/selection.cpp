@@ -19,7 +19,7 @@
 namespace lumel::bench {
 namespace {
 
-constexpr int kStretches = 3;  ///< of draws; the fastest counts
+constexpr int kSelectionStretches = 3;  ///< of draws; the fastest counts
 
 /// Push constants of selection.draw.comp.
 struct Power {
@@ -60,7 +60,7 @@ template <class Draw>
 DrawCost time_draws(const std::vector<float>& numbers, const Draw& draw)
 {
     DrawCost cost;
-    for (int i = 0; i < kStretches; ++i) {
+    for (int i = 0; i < kSelectionStretches; ++i) {
         Stopwatch watch;
         watch.start();
         for (std::size_t k = 0; k < numbers.size(); ++k)

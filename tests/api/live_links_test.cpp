@@ -23,7 +23,7 @@ Scene room()
     return Scene::load(scene_path("moving-large-lamp"));
 }
 
-LiveLinksSettings settings_for(const Scene& scene)
+LiveLinksSettings link_settings_for(const Scene& scene)
 {
     return {.atlas = {.size = kSize}, .movers = {scene.find_instance("box")}};
 }
@@ -114,7 +114,7 @@ TEST(LiveLinkScenes, MovedAndMovedBackAreLitAsBefore)
     const Scene scene = room();
     const std::uint32_t box = scene.find_instance("box");
     const Mat4 start = scene.instances()[box].transform;
-    LiveLinks live(scene, settings_for(scene));
+    LiveLinks live(scene, link_settings_for(scene));
     live.update(kUntilAtRest);
     const Map before = live.lumels();
     live.move(box, shifted(start, {0.3f, 0.0f, 0.2f}));
@@ -152,14 +152,14 @@ TEST(LiveLinkScenes, AreBakedUntilTheNextEdit)
 {
     const Scene scene = room();
     const std::uint32_t box = scene.find_instance("box");
-    LiveLinks live(scene, settings_for(scene));
+    LiveLinks live(scene, link_settings_for(scene));
     live.move(box, shifted(scene.instances()[box].transform, {0.3f, 0.0f, 0.2f}));
     const double error = live.bake(0.01);
     EXPECT_TRUE(live.state().at_rest);
     EXPECT_GT(error, 0.0);
     EXPECT_LE(error, 0.01);
     const Map baked = live.lumels();
-    LiveLinks other(scene, settings_for(scene));
+    LiveLinks other(scene, link_settings_for(scene));
     other.move(box, shifted(scene.instances()[box].transform, {0.3f, 0.0f, 0.2f}));
     other.update(kUntilAtRest);
     EXPECT_GT(difference(other.lumels(), baked), 0.0);
@@ -193,7 +193,7 @@ TEST(LiveLinkScenes, FarOutThingsMoveInTheWorldOfTheirFile)
     const Mat4 here = near.instances()[box].transform, there = far.instances()[box].transform;
     for (std::size_t c = 0; c < 3; ++c)
         EXPECT_NEAR(there[12 + c], here[12 + c] + offset[c], 0.2);
-    LiveLinks live(near, settings_for(near)), out(far, settings_for(far));
+    LiveLinks live(near, link_settings_for(near)), out(far, link_settings_for(far));
     live.update(kUntilAtRest);
     out.update(kUntilAtRest);
     const double before = mean_of(live.map());
@@ -234,7 +234,7 @@ TEST(LiveLinkScenes, RefuseWhatTheyCannotFollow)
 {
     const Scene scene = room();
     const std::uint32_t box = scene.find_instance("box");
-    LiveLinks live(scene, settings_for(scene));
+    LiveLinks live(scene, link_settings_for(scene));
     Mat4 stretched = scene.instances()[box].transform;
     stretched[0] *= 2.0f;
     const Mat4 nowhere = shifted(scene.instances()[box].transform, {kNoNumber, 0, 0});
@@ -250,15 +250,15 @@ TEST(LiveLinkScenes, RefuseWhatTheyCannotFollow)
     const auto made_with = [&](const LiveLinksSettings& settings) {
         LiveLinks(scene, settings).update(0.0);
     };
-    LiveLinksSettings settings = settings_for(scene);
+    LiveLinksSettings settings = link_settings_for(scene);
     settings.movers = {99};
     expect_error(ErrorKind::input, {"99"}, [&] { made_with(settings); });
     settings.movers = {box, box};
     expect_error(ErrorKind::input, {"twice"}, [&] { made_with(settings); });
-    settings = settings_for(scene);
+    settings = link_settings_for(scene);
     settings.rays = 50;
     expect_error(ErrorKind::input, {"50"}, [&] { made_with(settings); });
-    settings = settings_for(scene);
+    settings = link_settings_for(scene);
     settings.residual = 0.0;
     expect_error(ErrorKind::input, {"residual"}, [&] { made_with(settings); });
     LiveLinks lit(Scene(lit_cube()), {.atlas = {.size = kSize}});

@@ -15,7 +15,7 @@ using test::scene_path;
 
 constexpr double kMatrixError = 3e-3;  // of the compressed matrix, which aims at 0.2 %
 constexpr double kPapersError = 0.03;  // of its form of the matrix, which "hardly differs" [SF17]
-constexpr double kRounding = 1e-6;
+constexpr double kStateRounding = 1e-6;
 
 /// A bake whose light can be changed. Made once: it takes long.
 struct Relightables : testing::Test {
@@ -64,7 +64,7 @@ TEST_F(Relightables, AreWhatWasBakedUntilTheirLightChanges)
     expect_alike(map, baked().map, 1.0f, kMatrixError);
     for (const std::string& name : relight.lights())
         relight.set_light(name, {0.5f, 0.5f, 0.5f});
-    expect_alike(relight.map(), map, 0.5f, kRounding);
+    expect_alike(relight.map(), map, 0.5f, kStateRounding);
 }
 
 TEST_F(Relightables, MoveTheirSunAndItsLightComesBack)
@@ -81,7 +81,7 @@ TEST_F(Relightables, MoveTheirSunAndItsLightComesBack)
     }
     EXPECT_GT(apart, 0.05 * sum);
     relight.move_light("sun", {});
-    expect_alike(relight.map(), map, 1.0f, kRounding);
+    expect_alike(relight.map(), map, 1.0f, kStateRounding);
     expect_error(ErrorKind::input, {"sky", "lamp"}, [&] {
         relight.move_light("sky", {.position = Vec3{0, 0, 0}});
     });

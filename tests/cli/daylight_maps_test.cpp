@@ -32,8 +32,8 @@ std::string short_days(int february = 28)
         47.5, 19.0, 1.0, february);
 }
 
-std::vector<std::string> bake_of(const std::string& scene, const std::string& folder,
-                                 const std::vector<std::string>& more = {})
+std::vector<std::string> bake_of_12_rays(const std::string& scene, const std::string& folder,
+                                         const std::vector<std::string>& more = {})
 {
     std::vector<std::string> arguments = {
         "bake", own_scene(scene),  folder, "--size", "64", "--links",
@@ -58,7 +58,7 @@ TEST(DaylightFiles, HaveWeightsOfTheirMapsForEachHourWithLight)
 {
     const Workplace place;
     const std::string weather = place.file("made.epw", short_days()), out = place.path("out");
-    const Outcome baked = run_lumel(bake_of("office.gltf", out, {"--daylight", weather}));
+    const Outcome baked = run_lumel(bake_of_12_rays("office.gltf", out, {"--daylight", weather}));
     ASSERT_EQ(baked.code, 0) << baked.err;
     const Json daylight = Json::parse(bytes_of(out + "/daylight.json"));
     EXPECT_EQ(daylight["place"]["name"], "Test");
@@ -101,7 +101,7 @@ TEST(DaylightFiles, HaveWeightsOfTheirMapsForEachHourWithLight)
     EXPECT_EQ(own_hours, daylight["maps"].size());
 
     // A bake without daylight leaves none of another's.
-    ASSERT_EQ(run_lumel(bake_of("office.gltf", out)).code, 0);
+    ASSERT_EQ(run_lumel(bake_of_12_rays("office.gltf", out)).code, 0);
     EXPECT_TRUE(maps_in(out).empty());
     EXPECT_FALSE(fs::exists(out + "/daylight.json"));
 }
@@ -148,7 +148,8 @@ TEST(DaylightFiles, AreNoneAfterCtrlCButTheLightmapIs)
 {
     const Workplace place;
     const std::string weather = place.file("made.epw", short_days()), out = place.path("out");
-    std::vector<std::string> arguments = bake_of("office.gltf", out, {"--daylight", weather});
+    std::vector<std::string> arguments =
+        bake_of_12_rays("office.gltf", out, {"--daylight", weather});
     std::erase(arguments, "-q");
     const Outcome baked = run_lumel(arguments, {.interrupt_at = "daylight"});
     EXPECT_EQ(baked.code, 130) << baked.err;
@@ -166,10 +167,11 @@ TEST(DaylightFiles, AreRefusedInOneSentenceWithoutAWholeYear)
     const std::string whole = short_days();
     const std::string cut = place.file("cut.epw", whole.substr(0, whole.size() / 2));
     const std::vector<std::string> before = place.listing();
-    expect_one_sentence(run_lumel(bake_of("office.gltf", place.path("out"), {"--daylight", cut})),
-                        2, {"cut.epw: line", "cut short"});
     expect_one_sentence(
-        run_lumel(bake_of("office.gltf", place.path("out"), {"--daylight", "no.epw"})), 2,
+        run_lumel(bake_of_12_rays("office.gltf", place.path("out"), {"--daylight", cut})), 2,
+        {"cut.epw: line", "cut short"});
+    expect_one_sentence(
+        run_lumel(bake_of_12_rays("office.gltf", place.path("out"), {"--daylight", "no.epw"})), 2,
         {"no.epw"});
     EXPECT_EQ(place.listing(), before);
 }
@@ -178,7 +180,8 @@ TEST(DaylightFiles, AreNoneWhereNoDaylightComesIn)
 {
     const Workplace place;
     const std::string weather = place.file("made.epw", short_days()), out = place.path("out");
-    const Outcome baked = run_lumel(bake_of("furnace-0.9.gltf", out, {"--daylight", weather}));
+    const Outcome baked =
+        run_lumel(bake_of_12_rays("furnace-0.9.gltf", out, {"--daylight", weather}));
     ASSERT_EQ(baked.code, 0) << baked.err;
     EXPECT_NE(baked.err.find("no daylight reaches any surface"), std::string::npos) << baked.err;
     EXPECT_FALSE(fs::exists(out + "/daylight.json"));

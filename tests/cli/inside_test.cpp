@@ -12,7 +12,8 @@
 namespace lumel::test {
 namespace {
 
-std::vector<std::string> small_bake(const std::string& folder, const std::vector<std::string>& more)
+std::vector<std::string> bake_of_128_rays(const std::string& folder,
+                                          const std::vector<std::string>& more)
 {
     std::vector<std::string> arguments = {"bake", own_scene("cornell-box.gltf"),
                                           folder, "--size",
@@ -23,16 +24,11 @@ std::vector<std::string> small_bake(const std::string& folder, const std::vector
     return arguments;
 }
 
-bool has(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
-
 TEST(Verbose, TellsStagesSizesMemoryAndDeviceTimesOnStderr)
 {
     const Workplace place;
-    const Outcome bake =
-        run_lumel(small_bake(place.path("out"), {"--solver", "stochastic", "--verbose", "--json"}));
+    const Outcome bake = run_lumel(
+        bake_of_128_rays(place.path("out"), {"--solver", "stochastic", "--verbose", "--json"}));
     ASSERT_EQ(bake.code, 0) << bake.err;
     const auto report = nlohmann::json::parse(bake.out, nullptr, false);
     ASSERT_FALSE(report.is_discarded()) << bake.out;
@@ -53,8 +49,8 @@ TEST(Verbose, TellsStagesSizesMemoryAndDeviceTimesOnStderr)
 TEST(Verbose, ChangesNothingElse)
 {
     const Workplace place;
-    const Outcome plain = run_lumel(small_bake(place.path("plain"), {}));
-    const Outcome verbose = run_lumel(small_bake(place.path("verbose"), {"--verbose"}));
+    const Outcome plain = run_lumel(bake_of_128_rays(place.path("plain"), {}));
+    const Outcome verbose = run_lumel(bake_of_128_rays(place.path("verbose"), {"--verbose"}));
     EXPECT_EQ(plain.err, "");
     EXPECT_EQ(std::ranges::count(verbose.out, '\n'), std::ranges::count(plain.out, '\n'))
         << verbose.out;
@@ -66,8 +62,8 @@ TEST(Dump, ShowsWhatTheBakeWorkedWith)
 {
     const Workplace place;
     const Outcome bake =
-        run_lumel(small_bake(place.path("out"), {"--solver", "stochastic", "--hemicube", "64",
-                                                 "--dump", place.path("inside")}));
+        run_lumel(bake_of_128_rays(place.path("out"), {"--solver", "stochastic", "--hemicube", "64",
+                                                       "--dump", place.path("inside")}));
     ASSERT_EQ(bake.code, 0) << bake.err;
 
     // The lamp at 0.5483 m looks down on two blocks, the taller 0.33 m high; walls hide nothing.

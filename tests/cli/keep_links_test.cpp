@@ -16,13 +16,13 @@ namespace {
 using Json = nlohmann::json;
 using Edit = std::function<void(Json&)>;
 
-constexpr const char* kSide = "64";  // of the atlas [texels]
-constexpr const char* kRays = "24";  // of a lumel
+constexpr const char* kKeptSide = "64";  // of the atlas [texels]
+constexpr const char* kRays = "24";      // of a lumel
 constexpr int kSkyWidth = 32, kSkyHeight = 16;
 
 const Edit kAsItIs = [](Json&) {};
 
-Json& named(Json& list, const std::string& name)
+Json& named_in(Json& list, const std::string& name)
 {
     for (Json& entry : list)
         if (entry.value("name", "") == name)
@@ -31,9 +31,9 @@ Json& named(Json& list, const std::string& name)
 }
 
 /// The Cornell box with a lamp in it, and bakes of it under a sky with a bright part.
-class Box {
+class KeptBox {
 public:
-    Box()
+    KeptBox()
     {
         Image sky(kSkyWidth, kSkyHeight, 3);
         for (std::size_t k = 0; k < sky.values.size(); ++k)
@@ -47,8 +47,8 @@ public:
                      const std::vector<std::string>& more = {}) const
     {
         std::vector<std::string> arguments = {
-            "bake", scene(edit),    place.path(name), "--sky", place.path("sky.exr"), "--size",
-            kSide,  "--keep-links", "--links",        kRays,   "--preview-width",     "0",
+            "bake",    scene(edit),    place.path(name), "--sky", place.path("sky.exr"), "--size",
+            kKeptSide, "--keep-links", "--links",        kRays,   "--preview-width",     "0",
             "-q"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const Outcome outcome = run_lumel(arguments);
@@ -100,13 +100,13 @@ void expect_few_traced(const Json& report)
 
 void dim_lamp(Json& scene)
 {
-    for (Json& channel : named(scene["materials"], "light")["emissiveFactor"])
+    for (Json& channel : named_in(scene["materials"], "light")["emissiveFactor"])
         channel = 0.25 * channel.get<double>();
 }
 
 TEST(KeepLinks, RelightIsANewBakeOfTheChangedScene)
 {
-    const Box box;
+    const KeptBox box;
     const std::string folder = box.bake("out");
     EXPECT_TRUE(std::filesystem::exists(folder + "/scene.lumellinks"));
     const Json baked = Json::parse(bytes_of(folder + "/report.json"))["solution"];
@@ -129,7 +129,7 @@ TEST(KeepLinks, RelightIsANewBakeOfTheChangedScene)
     expect_equal(folder + "/states/as baked.exr", folder + "/lightmap.exr");
     const std::string lamps = box.bake("lamps", [](Json& scene) {
         dim_lamp(scene);
-        named(scene["nodes"], "bulb")["translation"] = {0.1, 0.4, 0.3};
+        named_in(scene["nodes"], "bulb")["translation"] = {0.1, 0.4, 0.3};
         scene["extensions"]["KHR_lights_punctual"]["lights"][0]["color"] = {0.5, 0.75, 1.0};
     });
     expect_equal(folder + "/states/lamps.exr", lamps + "/lightmap.exr");
@@ -151,7 +151,7 @@ TEST(KeepLinks, RelightIsANewBakeOfTheChangedScene)
 // Lumels inside of the blocks are buried by both.
 TEST(KeepLinks, ABoxOfTwoSidedBlocksIsRelitAsItWasBaked)
 {
-    const Box box;
+    const KeptBox box;
     const std::string folder = box.bake("out", [](Json& scene) {
         for (Json& material : scene["materials"])
             material["doubleSided"] = true;
@@ -163,7 +163,7 @@ TEST(KeepLinks, ABoxOfTwoSidedBlocksIsRelitAsItWasBaked)
 }
 
 /// The report's row of an update.
-Json update(const Box& box, const std::string& folder, const Edit& edit)
+Json update(const KeptBox& box, const std::string& folder, const Edit& edit)
 {
     const Outcome outcome =
         run_lumel({"update", folder, box.scene(edit), "--preview-width", "0", "--json"});
@@ -173,11 +173,11 @@ Json update(const Box& box, const std::string& folder, const Edit& edit)
 
 TEST(KeepLinks, UpdateOfPaintAndLampsIsANewBakeOfTheEditedScene)
 {
-    const Box box;
+    const KeptBox box;
     const std::string folder = box.bake("out");
     const Edit edit = [](Json& scene) {
-        named(scene["materials"], "red")["pbrMetallicRoughness"]["baseColorFactor"] = {0.1, 0.2,
-                                                                                       0.7, 1.0};
+        named_in(scene["materials"], "red")["pbrMetallicRoughness"]["baseColorFactor"] = {0.1, 0.2,
+                                                                                          0.7, 1.0};
         dim_lamp(scene);
     };
     const Json row = update(box, folder, edit);
@@ -202,7 +202,7 @@ TEST(KeepLinks, UpdateOfPaintAndLampsIsANewBakeOfTheEditedScene)
 // A new bake may pack a thing that moved otherwise, so the bake to compare with is the first.
 TEST(KeepLinks, UpdateOfAThingMovedToWhereABakeHasItIsThatBake)
 {
-    const Box box;
+    const KeptBox box;
     const std::string folder = box.bake("out"), map = folder + "/lightmap.exr",
                       links = bytes_of(folder + "/scene.lumellinks"),
                       before = box.place.file("before.exr", bytes_of(map));
@@ -212,7 +212,7 @@ TEST(KeepLinks, UpdateOfAThingMovedToWhereABakeHasItIsThatBake)
         EXPECT_LT(2 * row["rays"].get<double>(), row["links"].get<double>());
     };
     few(update(box, folder, [](Json& scene) {
-        named(scene["nodes"], "short block")["translation"] = {-0.05, 0.0, 0.08};
+        named_in(scene["nodes"], "short block")["translation"] = {-0.05, 0.0, 0.08};
     }));
     EXPECT_NE(read_exr(map).values, read_exr(before).values);
     EXPECT_FALSE(bytes_of(folder + "/scene.lumellinks") == links);
@@ -223,7 +223,7 @@ TEST(KeepLinks, UpdateOfAThingMovedToWhereABakeHasItIsThatBake)
 
 TEST(KeepLinks, UpdateOfAThingThatAppearsOrGoesTracesFewLinksAndCanBeLitAnew)
 {
-    const Box box;
+    const KeptBox box;
     const std::string folder = box.bake("out");
     const Edit without = [](Json& scene) {
         Json& nodes = scene["scenes"][0]["nodes"];
@@ -238,7 +238,7 @@ TEST(KeepLinks, UpdateOfAThingThatAppearsOrGoesTracesFewLinksAndCanBeLitAnew)
         const Json row = update(box, folder, edit);
         const Json sizes = Json::parse(bytes_of(folder + "/report.json"))["sizes"];
         EXPECT_GT(row["rays"], 0);
-        if (sizes["atlas_width"] == std::stoi(kSide))
+        if (sizes["atlas_width"] == std::stoi(kKeptSide))
             EXPECT_LT(2 * row["rays"].get<double>(), row["links"].get<double>());
         else
             EXPECT_EQ(row["rays"], row["links"]);  // the map grew: places are rounded otherwise
@@ -248,7 +248,7 @@ TEST(KeepLinks, UpdateOfAThingThatAppearsOrGoesTracesFewLinksAndCanBeLitAnew)
         expect_few_traced(Json::parse(again.out));
         expect_equal(folder + "/states/same.exr", folder + "/lightmap.exr");
     }
-    EXPECT_EQ(widths.front(), std::stoi(kSide));
+    EXPECT_EQ(widths.front(), std::stoi(kKeptSide));
 }
 
 // Rays by need: sweeps that went on from round to round leave other residuals than those begun
@@ -256,11 +256,11 @@ TEST(KeepLinks, UpdateOfAThingThatAppearsOrGoesTracesFewLinksAndCanBeLitAnew)
 TEST(KeepLinks, RelightOfABakeToAnErrorIsThatBake)
 {
     constexpr double kResidual = 2e-3;  // of the mean light
-    const Box box;
+    const KeptBox box;
     const std::string folder = box.place.path("out");
     const Outcome outcome =
-        run_lumel({"bake", box.scene(kAsItIs), folder, "--size", kSide, "--keep-links", "--error",
-                   "2", "--preview-width", "0", "-q"});
+        run_lumel({"bake", box.scene(kAsItIs), folder, "--size", kKeptSide, "--keep-links",
+                   "--error", "2", "--preview-width", "0", "-q"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const Json solution = Json::parse(bytes_of(folder + "/report.json"))["solution"];
     EXPECT_LE(solution["estimated_error"].get<double>(), 0.02);
@@ -292,7 +292,7 @@ TEST(Links, AreAsManyAsGiven)
 
 TEST(KeepLinks, RefusesWhatItCannotKeepOrLight)
 {
-    const Box box;
+    const KeptBox box;
     const std::string scene = own_scene("cornell-box.gltf"), out = box.place.path("none");
     const auto refused = [&](const std::vector<std::string>& more,
                              const std::vector<std::string>& words) {
@@ -331,7 +331,7 @@ TEST(KeepLinks, RefusesWhatItCannotKeepOrLight)
 
 TEST(KeepLinks, ABakeThatKeepsNoneRemovesThoseOfAnother)
 {
-    const Box box;
+    const KeptBox box;
     const std::string folder = box.bake("out");
     const Outcome outcome = run_lumel({"bake", own_scene("cornell-box.gltf"), folder, "--size",
                                        "16", "--shots", "16", "--preview-width", "0", "-q"});

@@ -18,9 +18,9 @@ namespace {
 using Json = nlohmann::json;
 
 /// A finished bake.
-class Bake {
+class MeasuredBake {
 public:
-    explicit Bake(const std::string& scene, const std::vector<std::string>& more = {})
+    explicit MeasuredBake(const std::string& scene, const std::vector<std::string>& more = {})
     {
         std::vector<std::string> arguments = {"bake", own_scene(scene),  folder(), "--size",
                                               "64",   "--preview-width", "0",      "-q"};
@@ -60,7 +60,7 @@ std::vector<std::string> lines_of(const std::string& text)
 
 TEST(Measure, AFurnaceHasTheEmissionOverOneMinusTheAlbedoEverywhere)
 {
-    const Bake bake("furnace-0.5.gltf", {"--error", "0.2"});
+    const MeasuredBake bake("furnace-0.5.gltf", {"--error", "0.2"});
     const Json report = bake.json({"--at", "0.3,0.4,0.5", "--at", "0.5,0,0.2", "--at",
                                    "0.7,0.9,0.6,1,-2,0.5", "--samples", "16384"});
     ASSERT_EQ(report["points"].size(), 3u);
@@ -72,7 +72,7 @@ TEST(Measure, AFurnaceHasTheEmissionOverOneMinusTheAlbedoEverywhere)
 
 TEST(Measure, APlaneHasAsManyRowsInItsTableAsPoints)
 {
-    const Bake bake("cornell-box.gltf", {"--shots", "64"});
+    const MeasuredBake bake("cornell-box.gltf", {"--shots", "64"});
     const std::string table = bake.place.path("plane.csv"), picture = bake.place.path("plane.png");
     const Json report = bake.json({"--plane", "0.1", "--spacing", "0.1", "--samples", "256",
                                    "--csv", table, "--false-colour", picture});
@@ -106,7 +106,7 @@ TEST(Measure, APlaneHasAsManyRowsInItsTableAsPoints)
 
 TEST(Measure, ThePreviewIsDrawnInFalseColours)
 {
-    const Bake bake("cornell-box.gltf", {"--shots", "64"});
+    const MeasuredBake bake("cornell-box.gltf", {"--shots", "64"});
     const std::string picture = bake.place.path("view.png");
     const Outcome outcome = bake.measure({"--preview", picture, "--width", "96"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -115,13 +115,13 @@ TEST(Measure, ThePreviewIsDrawnInFalseColours)
 
 TEST(Measure, GivesDaylightFactorsOfABakeUnderTheOvercastSkyAlone)
 {
-    const Bake bake("city.gltf", {"--sky", "overcast:5000", "--shots", "64"});
+    const MeasuredBake bake("city.gltf", {"--sky", "overcast:5000", "--shots", "64"});
     // Far above the roofs.
     const Json report = bake.json({"--at", "0,1000,0", "--samples", "16384"});
     EXPECT_EQ(report["outdoors"], 5000.0);
     EXPECT_NEAR(report["points"][0]["daylight_factor"].get<double>(), 100.0, 0.5);
     EXPECT_NEAR(report["points"][0]["illuminance"].get<double>(), 5000.0, 25.0);
-    const Bake lit("cornell-box.gltf", {"--sky", "overcast", "--shots", "64"});
+    const MeasuredBake lit("cornell-box.gltf", {"--sky", "overcast", "--shots", "64"});
     const Json mixed = lit.json({"--at", "0.2,0.2,0.2"});
     EXPECT_FALSE(mixed["points"][0].contains("daylight_factor"));
     EXPECT_EQ(mixed["notes"].size(), 1u);
@@ -129,7 +129,7 @@ TEST(Measure, GivesDaylightFactorsOfABakeUnderTheOvercastSkyAlone)
 
 TEST(Measure, RefusesWhatItCannotUse)
 {
-    const Bake bake("cornell-box.gltf", {"--shots", "16"});
+    const MeasuredBake bake("cornell-box.gltf", {"--shots", "16"});
     const auto refused = [&](const std::vector<std::string>& more,
                              const std::vector<std::string>& words) {
         expect_one_sentence(bake.measure(more), 2, words);
@@ -166,7 +166,7 @@ std::string two_seasons()
 
 TEST(Measure, DaylightOverAYearIsListedWithItsPlane)
 {
-    const Bake bake("office.gltf", {"--shots", "48"});
+    const MeasuredBake bake("office.gltf", {"--shots", "48"});
     const std::string weather = bake.place.file("made.epw", two_seasons());
     const std::string table = bake.place.path("plane.csv");
     const std::vector<std::string> command = {
@@ -228,7 +228,7 @@ TEST(Measure, DaylightOverAYearIsListedWithItsPlane)
 /// A floor goes on around a closed box, dark inside. Of the points, 2 × 2 are in the box.
 TEST(Measure, PointsOutdoorsAreNoPartOfTheDaylightOfARoom)
 {
-    const Bake bake("sealed-box.gltf", {"--shots", "16"});
+    const MeasuredBake bake("sealed-box.gltf", {"--shots", "16"});
     const std::string weather = bake.place.file("made.epw", two_seasons());
     const auto command = [&](const std::string& bounds) {
         return std::vector<std::string>{"--plane",   "0.5",   "--spacing", "0.6",
@@ -252,7 +252,7 @@ TEST(Measure, PointsOutdoorsAreNoPartOfTheDaylightOfARoom)
 
 TEST(Measure, AWeatherFileCutShortIsOneSentenceAndNothingIsWritten)
 {
-    const Bake bake("cornell-box.gltf", {"--shots", "16"});
+    const MeasuredBake bake("cornell-box.gltf", {"--shots", "16"});
     const std::string whole = two_seasons();
     const std::string cut = bake.place.file("cut.epw", whole.substr(0, whole.size() / 2));
     const std::string weather = bake.place.file("whole.epw", whole);
@@ -320,7 +320,7 @@ TEST(Measure, BothSidesOfAWallHaveTheLightOfTheirOwnLamps)
 
 TEST(Measure, RoomsThatCannotBeReportedAreRefused)
 {
-    const Bake bake("cornell-box.gltf", {"--shots", "16"});
+    const MeasuredBake bake("cornell-box.gltf", {"--shots", "16"});
     const auto refused = [&](const std::vector<std::string>& more,
                              const std::vector<std::string>& words) {
         std::vector<std::string> command = {"report", bake.place.path("out")};

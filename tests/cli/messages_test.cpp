@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::vector<std::string> bake_of(const std::string& scene, const std::string& folder,
-                                 const std::vector<std::string>& more)
+std::vector<std::string> tiny_bake_of(const std::string& scene, const std::string& folder,
+                                      const std::vector<std::string>& more)
 {
     std::vector<std::string> arguments = {"bake", scene, folder, "--size", "32", "--preview-width",
                                           "0"};
@@ -24,9 +24,9 @@ std::vector<std::string> bake_of(const std::string& scene, const std::string& fo
     return arguments;
 }
 
-std::vector<std::string> small_bake(const std::string& folder, const std::vector<std::string>& more)
+std::vector<std::string> tiny_bake(const std::string& folder, const std::vector<std::string>& more)
 {
-    return bake_of(own_scene("cornell-box.gltf"), folder, more);
+    return tiny_bake_of(own_scene("cornell-box.gltf"), folder, more);
 }
 
 Json report_in(const Workplace& place)
@@ -34,21 +34,16 @@ Json report_in(const Workplace& place)
     return Json::parse(bytes_of(place.path("out/report.json")), nullptr, false);
 }
 
-bool has(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
-
 TEST(Messages, AnErrorThatIsNotReachedIsAWarning)
 {
     const Workplace place;
-    const Outcome bake = run_lumel(small_bake(place.path("out"), {"--shots", "6", "--error", "1"}));
+    const Outcome bake = run_lumel(tiny_bake(place.path("out"), {"--shots", "6", "--error", "1"}));
     EXPECT_EQ(bake.code, 0) << bake.err;
     EXPECT_TRUE(has(bake.err, "warning: the estimated error is ")) << bake.err;
     EXPECT_TRUE(has(bake.err, "not the 1 % asked for")) << bake.err;
     EXPECT_TRUE(has(report_in(place)["warnings"].dump(), "not the 1 % asked for"));
     // Shots alone are no promise of an error.
-    EXPECT_EQ(run_lumel(small_bake(place.path("out"), {"--shots", "6"})).err, "");
+    EXPECT_EQ(run_lumel(tiny_bake(place.path("out"), {"--shots", "6"})).err, "");
 }
 
 /// Visible noise; 0 if no chart is large enough to tell.
@@ -64,7 +59,7 @@ TEST(Messages, AFinerQualityTakesMoreRaysAndSaysHowGoodTheLightIs)
     const Workplace place;
     const auto rays = [&](const std::string& quality, double visible) {
         const Outcome bake = run_lumel(
-            bake_of(own_scene("two-rooms.gltf"), place.path("out"), {"--quality", quality}));
+            tiny_bake_of(own_scene("two-rooms.gltf"), place.path("out"), {"--quality", quality}));
         EXPECT_EQ(bake.code, 0) << bake.err;
         EXPECT_TRUE(has(bake.err + bake.out, "of the light around")) << bake.err << bake.out;
         const Json solution = report_in(place)["solution"];
@@ -94,7 +89,7 @@ TEST(Messages, ABakeThatEndsByDefaultSaysHowToGoOnAndWhere)
 TEST(Messages, ATimeThatIsOverAtOnceStillLeavesLight)
 {
     const Workplace place;
-    const Outcome bake = run_lumel(small_bake(place.path("out"), {"--time", "0.001"}));
+    const Outcome bake = run_lumel(tiny_bake(place.path("out"), {"--time", "0.001"}));
     ASSERT_EQ(bake.code, 0) << bake.err;
     EXPECT_GT(report_in(place)["solution"]["shots"], 0);
     EXPECT_TRUE(has(bake.err, "0.001 s was too short: all lumels had their first light after"))
@@ -110,7 +105,7 @@ TEST(Messages, ASceneWithoutLightIsAWarningAndHasNoError)
     for (Json& material : scene["materials"])
         material.erase("emissiveFactor");
     const std::string dark = place.file("dark.gltf", scene.dump());
-    const Outcome bake = run_lumel(bake_of(dark, place.path("out"), {"--shots", "16"}));
+    const Outcome bake = run_lumel(tiny_bake_of(dark, place.path("out"), {"--shots", "16"}));
     EXPECT_EQ(bake.code, 0) << bake.err;
     EXPECT_TRUE(has(bake.err, "warning: nothing in the scene gives light")) << bake.err;
     EXPECT_TRUE(has(bake.err, "--sky")) << bake.err;
@@ -126,7 +121,7 @@ TEST(Messages, WhatHalfPrecisionClipsIsCounted)
 {
     const Workplace place;
     const std::vector<std::string> sky = {"--shots", "6", "--sky", "30000,30000,30000"};
-    ASSERT_EQ(run_lumel(small_bake(place.path("out"), sky)).code, 0);
+    ASSERT_EQ(run_lumel(tiny_bake(place.path("out"), sky)).code, 0);
     const Image map = read_exr(place.path("out/lightmap.exr"));
     std::size_t clipped = 0, covered = 0;
     float most = 0.0f;
@@ -142,7 +137,7 @@ TEST(Messages, WhatHalfPrecisionClipsIsCounted)
     ASSERT_LT(clipped, covered);
     std::vector<std::string> half = sky;
     half.emplace_back("--half");
-    const Outcome bake = run_lumel(small_bake(place.path("out"), half));
+    const Outcome bake = run_lumel(tiny_bake(place.path("out"), half));
     EXPECT_TRUE(has(bake.err, fmt::format("warning: {} lumels of lightmap.exr", clipped)))
         << clipped << "\n"
         << bake.err;
@@ -159,14 +154,14 @@ TEST(Messages, TheDensityThatTexturesLoseInTheBakedSceneIsSaid)
     EXPECT_TRUE(has(bake.err, "textures in scene-baked.glb are downsampled to ")) << bake.err;
     EXPECT_TRUE(has(report_in(place)["notes"].dump(), " %; raise --baked-size, or use scene.glb"));
     // Where there are none, nothing is lost.
-    EXPECT_EQ(run_lumel(small_bake(place.path("out"), {"--shots", "6"})).err, "");
+    EXPECT_EQ(run_lumel(tiny_bake(place.path("out"), {"--shots", "6"})).err, "");
 }
 
 TEST(Messages, HaveColoursOnTerminalsUnlessNotWanted)
 {
     const Workplace place;
     const std::vector<std::string> bake =
-        small_bake(place.path("out"), {"--shots", "6", "--error", "1", "--progress", "none"});
+        tiny_bake(place.path("out"), {"--shots", "6", "--error", "1", "--progress", "none"});
     const auto colours = [&](bool terminal, const std::string& setting) {
         const Outcome outcome =
             run_lumel(bake, {.terminal = terminal, .environment = {"TERM=xterm", setting}});
@@ -181,7 +176,7 @@ TEST(Messages, HaveColoursOnTerminalsUnlessNotWanted)
 TEST(Messages, ADeviceThatIsNotThereNamesThoseThatAre)
 {
     const Workplace place;
-    const Outcome bake = run_lumel(small_bake(place.path("out"), {"--device", "77"}));
+    const Outcome bake = run_lumel(tiny_bake(place.path("out"), {"--device", "77"}));
     expect_one_sentence(bake, 3, {"--device 77", "no device has this number", "number 0 is "});
 }
 
@@ -189,7 +184,7 @@ TEST(Messages, AMachineWithoutADriverIsToldWhatToInstall)
 {
     const Workplace place;
     const RunOptions none{.environment = {"VK_ICD_FILENAMES=/nowhere", "VK_DRIVER_FILES=/nowhere"}};
-    expect_one_sentence(run_lumel(small_bake(place.path("out"), {}), none), 3,
+    expect_one_sentence(run_lumel(tiny_bake(place.path("out"), {}), none), 3,
                         {"Vulkan", "mesa-vulkan-drivers"});
     expect_one_sentence(run_lumel({"devices"}, none), 3, {"Vulkan", "mesa-vulkan-drivers"});
 }
@@ -231,7 +226,7 @@ TEST(Messages, TheSunIsRecordedAsItWasGivenAndCountsAsNoLamp)
 {
     const Workplace place;
     const std::string sun = "47.5,19.04,2024-06-21T14:00:00+02:00";
-    ASSERT_EQ(run_lumel(small_bake(place.path("out"), {"--shots", "6", "--sun", sun})).code, 0);
+    ASSERT_EQ(run_lumel(tiny_bake(place.path("out"), {"--shots", "6", "--sun", sun})).code, 0);
     const Json recorded = report_in(place)["lights"]["sun"];
     EXPECT_EQ(recorded["latitude"], 47.5);
     EXPECT_EQ(recorded["longitude"], 19.04);
@@ -246,7 +241,7 @@ TEST(Messages, TheSunIsRecordedAsItWasGivenAndCountsAsNoLamp)
 TEST(Messages, TheReportNamesTheLibrariesThatMadeIt)
 {
     const Workplace place;
-    ASSERT_EQ(run_lumel(small_bake(place.path("out"), {"--shots", "6"})).code, 0);
+    ASSERT_EQ(run_lumel(tiny_bake(place.path("out"), {"--shots", "6"})).code, 0);
     const Json libraries = report_in(place)["libraries"];
     for (const char* name : {"Draco", "Embree", "OpenEXR", "libpng", "libwebp", "meshoptimizer",
                              "nlohmann_json", "oneTBB"})

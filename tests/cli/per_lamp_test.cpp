@@ -17,13 +17,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr const char* kSide = "96";  // of the atlas [texels]
+constexpr const char* kLampsSide = "96";  // of the atlas [texels]
 
-std::vector<std::string> bake_of(const std::string& scene, const std::string& folder,
-                                 const std::vector<std::string>& more = {})
+std::vector<std::string> lamps_bake_of(const std::string& scene, const std::string& folder,
+                                       const std::vector<std::string>& more = {})
 {
     std::vector<std::string> arguments = {
-        "bake", scene, folder, "--size", kSide, "--links", "12", "--preview-width", "0", "-q"};
+        "bake", scene, folder, "--size", kLampsSide, "--links", "12", "--preview-width", "0", "-q"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
 }
@@ -89,7 +89,7 @@ TEST(PerLamp, MapsAddUpInEverySceneOfTheProject)
             continue;
         const Workplace place;
         const Outcome outcome =
-            run_lumel(bake_of(entry.path().string(), place.path("out"), {"--per-lamp"}));
+            run_lumel(lamps_bake_of(entry.path().string(), place.path("out"), {"--per-lamp"}));
         if (outcome.code != 0) {
             EXPECT_NE(outcome.err.find("has no lamp whose light can be kept apart"),
                       std::string::npos)
@@ -109,9 +109,10 @@ TEST(PerLamp, LeavesTheLightmapAsItIs)
 {
     const Workplace place;
     const std::string scene = box_with_bulbs(place, 3);
-    ASSERT_EQ(run_lumel(bake_of(scene, place.path("plain"), {"--sky", "1,2,3"})).code, 0);
-    ASSERT_EQ(run_lumel(bake_of(scene, place.path("lamps"), {"--sky", "1,2,3", "--per-lamp"})).code,
-              0);
+    ASSERT_EQ(run_lumel(lamps_bake_of(scene, place.path("plain"), {"--sky", "1,2,3"})).code, 0);
+    ASSERT_EQ(
+        run_lumel(lamps_bake_of(scene, place.path("lamps"), {"--sky", "1,2,3", "--per-lamp"})).code,
+        0);
     EXPECT_EQ(read_exr(place.path("plain/lightmap.exr")).values,
               read_exr(place.path("lamps/lightmap.exr")).values);
     const Json lamps = lamps_in(place.path("lamps"))["lamps"];
@@ -129,8 +130,8 @@ TEST(PerLamp, WorksOnPagesWithBothSidesAndDirections)
 {
     const Workplace place;
     const Outcome outcome = run_lumel(
-        bake_of(box_with_bulbs(place, 2), place.path("out"),
-                {"--per-lamp", "--pages", "2", "--sides", "both", "--directional", "sh1"}));
+        lamps_bake_of(box_with_bulbs(place, 2), place.path("out"),
+                      {"--per-lamp", "--pages", "2", "--sides", "both", "--directional", "sh1"}));
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     for (const char* page : {"-0", "-1"}) {
         EXPECT_GE(error_of_sum(place.path("out"), page), 0.0);
@@ -154,7 +155,7 @@ TEST(PerLamp, NamesFilesAndGroupsByLamps)
             box.push("nodes", {{"translation", {0.3, 0.3, 0.1}},
                                {"extensions", {{"KHR_lights_punctual", {{"light", k}}}}}}));
     const std::string scene = box.write(place);
-    ASSERT_EQ(run_lumel(bake_of(scene, place.path("out"), {"--per-lamp"})).code, 0);
+    ASSERT_EQ(run_lumel(lamps_bake_of(scene, place.path("out"), {"--per-lamp"})).code, 0);
     const Json lamps = lamps_in(place.path("out"))["lamps"];
     ASSERT_EQ(lamps.size(), 4u);
     for (const Json& lamp : lamps) {
@@ -167,7 +168,8 @@ TEST(PerLamp, NamesFilesAndGroupsByLamps)
     EXPECT_EQ(lamps[2]["kind"], "sun");
     EXPECT_NE(lamps[0]["map"], lamps[1]["map"]);
 
-    ASSERT_EQ(run_lumel(bake_of(scene, place.path("out"), {"--group", "kitchen=Küche*"})).code, 0);
+    ASSERT_EQ(
+        run_lumel(lamps_bake_of(scene, place.path("out"), {"--group", "kitchen=Küche*"})).code, 0);
     const Json joined = lamps_in(place.path("out"))["lamps"];
     ASSERT_EQ(joined.size(), 3u);
     EXPECT_EQ(joined[0]["name"], "kitchen");
@@ -176,7 +178,7 @@ TEST(PerLamp, NamesFilesAndGroupsByLamps)
     EXPECT_FALSE(fs::exists(place.path("out/" + lamps[0]["map"].get<std::string>())));
     EXPECT_LT(error_of_sum(place.path("out")), 1e-5);
 
-    ASSERT_EQ(run_lumel(bake_of(scene, place.path("out"))).code, 0);
+    ASSERT_EQ(run_lumel(lamps_bake_of(scene, place.path("out"))).code, 0);
     EXPECT_FALSE(fs::exists(place.path("out/lamps.json")));
     EXPECT_FALSE(fs::exists(place.path("out/lamp-kitchen.exr")));
 }
@@ -185,7 +187,7 @@ TEST(PerLamp, OfAnUpdateAreGoneAsTheyWouldNotFit)
 {
     const Workplace place;
     const std::string scene = box_with_bulbs(place, 2);
-    ASSERT_EQ(run_lumel(bake_of(scene, place.path("out"), {"--per-lamp"})).code, 0);
+    ASSERT_EQ(run_lumel(lamps_bake_of(scene, place.path("out"), {"--per-lamp"})).code, 0);
     EditedScene moved("cornell-box.gltf");
     moved.add_block("block", {0.05f, 0.001f, 0.05f}, {0.1f, 0.1f, 0.1f});
     const Workplace other;
@@ -204,10 +206,10 @@ TEST(PerLamp, FilesOfTheUserStay)
     fs::create_directory(place.path("out"));
     place.file("out/lamps.json", "not json: my lamps");
     place.file("out/lamp-0.exr", "mine");
-    ASSERT_EQ(run_lumel(bake_of(scene, place.path("out"))).code, 0);
+    ASSERT_EQ(run_lumel(lamps_bake_of(scene, place.path("out"))).code, 0);
     EXPECT_EQ(bytes_of(place.path("out/lamps.json")), "not json: my lamps");
-    ASSERT_EQ(run_lumel(bake_of(scene, place.path("out"), {"--per-lamp"})).code, 0);
-    ASSERT_EQ(run_lumel(bake_of(scene, place.path("out"))).code, 0);
+    ASSERT_EQ(run_lumel(lamps_bake_of(scene, place.path("out"), {"--per-lamp"})).code, 0);
+    ASSERT_EQ(run_lumel(lamps_bake_of(scene, place.path("out"))).code, 0);
     EXPECT_FALSE(fs::exists(place.path("out/lamps.json")));
     EXPECT_EQ(bytes_of(place.path("out/lamp-0.exr")), "mine");
 }
@@ -215,8 +217,8 @@ TEST(PerLamp, FilesOfTheUserStay)
 TEST(PerLamp, OfHalfPrecisionStateNoSum)
 {
     const Workplace place;
-    const Outcome outcome =
-        run_lumel(bake_of(own_scene("room.gltf"), place.path("out"), {"--per-lamp", "--half"}));
+    const Outcome outcome = run_lumel(
+        lamps_bake_of(own_scene("room.gltf"), place.path("out"), {"--per-lamp", "--half"}));
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_FALSE(lamps_in(place.path("out")).contains("sum_error"));
     constexpr double kLeastNormalHalf = 0x1p-14;  // below, halves have fewer bits
@@ -228,7 +230,7 @@ TEST(PerLamp, RefusesWhatItCannotKeepApart)
     const Workplace place;
     const std::string scene = box_with_bulbs(place, 65);
     const auto bake = [&](const std::vector<std::string>& more) {
-        return run_lumel(bake_of(scene, place.path("out"), more));
+        return run_lumel(lamps_bake_of(scene, place.path("out"), more));
     };
     expect_one_sentence(bake({"--per-lamp"}), 2, {"64", "66", "--group"});
     expect_one_sentence(bake({"--group", "a=nothing*"}), 2, {"a=nothing*", "fits no lamp"});

@@ -211,6 +211,11 @@ std::string bytes_of(const std::string& path)
     return bytes.str();
 }
 
+bool has(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
 void expect_one_sentence(const Outcome& outcome, int code, const std::vector<std::string>& words)
 {
     EXPECT_EQ(outcome.code, code) << outcome.err;

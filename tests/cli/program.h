@@ -63,6 +63,9 @@ std::string own_scene(const std::string& name);
 /// All bytes of a file; empty if there is none.
 std::string bytes_of(const std::string& path);
 
+/// True if a text contains another.
+bool has(const std::string& text, const std::string& part);
+
 /// Passes if `outcome` is a failure with this exit code that prints one line on stderr, nothing on
 /// stdout, and names all of `words`.
 void expect_one_sentence(const Outcome& outcome, int code, const std::vector<std::string>& words);

@@ -16,31 +16,31 @@ constexpr int kInput = 2, kOutput = 4;
 
 const std::vector<std::string> kSmall = {"--size", "64", "--preview-width", "0"};
 
-using Words = std::vector<std::string>;
+using Arguments = std::vector<std::string>;
 
-Words joined(Words words, const Words& more)
+Arguments joined(Arguments words, const Arguments& more)
 {
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }
 
-Words bake_of(const std::string& scene, const std::string& folder, const Words& more = {})
+Arguments bake_of(const std::string& scene, const std::string& folder, const Arguments& more = {})
 {
     return joined(joined({lumel_program(), "bake", scene, folder}, kSmall), more);
 }
 
 /// Runs mpirun with a process of each command.
-Outcome run_ranks(const std::vector<Words>& commands, RunOptions options = {})
+Outcome run_ranks(const std::vector<Arguments>& commands, RunOptions options = {})
 {
-    Words words = {"--oversubscribe", "--bind-to", "none"};
-    for (const Words& command : commands)
+    Arguments words = {"--oversubscribe", "--bind-to", "none"};
+    for (const Arguments& command : commands)
         words = joined(joined(words, {"-n", "1"}), joined(command, {":"}));
     words.pop_back();
     options.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
     return run_program("mpirun", words, options);
 }
 
-void expect_words(const std::string& text, const Words& words)
+void expect_words(const std::string& text, const Arguments& words)
 {
     for (const std::string& word : words)
         EXPECT_NE(text.find(word), std::string::npos) << word << " is not in: " << text;
@@ -63,10 +63,10 @@ protected:
 
 TEST_F(Ranks, BakeTheBytesOfOneProcess)
 {
-    const Words more = {"--keep-links", "--error", "2"};
-    const Words alone = bake_of(cornell, place.path("alone"), more);
+    const Arguments more = {"--keep-links", "--error", "2"};
+    const Arguments alone = bake_of(cornell, place.path("alone"), more);
     ASSERT_EQ(run_program(alone[0], {alone.begin() + 1, alone.end()}).code, 0);
-    const Words shared = bake_of(cornell, out, more);
+    const Arguments shared = bake_of(cornell, out, more);
     const Outcome bake = run_ranks({shared, shared});
     ASSERT_EQ(bake.code, 0) << bake.err;
     EXPECT_EQ(std::ranges::count(bake.out, '\n'), 2) << bake.out;
@@ -95,11 +95,11 @@ TEST_F(Ranks, RefuseAFolderThatOneDoesNotSee)
 
 TEST_F(Ranks, RefuseWhatTheyCannotShare)
 {
-    const Words progressive = bake_of(cornell, out, {"--solver", "progressive"});
+    const Arguments progressive = bake_of(cornell, out, {"--solver", "progressive"});
     const Outcome bake = run_ranks({progressive, progressive});
     EXPECT_EQ(bake.code, kInput);
     expect_words(bake.err, {"--solver progressive: cannot be shared by several processes"});
-    const Words info = {lumel_program(), "info", cornell};
+    const Arguments info = {lumel_program(), "info", cornell};
     const Outcome other = run_ranks({info, info});
     EXPECT_EQ(other.code, kInput);
     expect_words(other.err, {"mpirun: can start lumel bake only"});
@@ -108,7 +108,7 @@ TEST_F(Ranks, RefuseWhatTheyCannotShare)
 /// mpirun passes SIGUSR1 on to all.
 TEST_F(Ranks, KeepTheLightSoFarWhenStopped)
 {
-    const Words bake = bake_of(cornell, out, {"--error", "0.01", "--verbose"});
+    const Arguments bake = bake_of(cornell, out, {"--error", "0.01", "--verbose"});
     const Outcome stopped =
         run_ranks({bake, bake}, {.interrupt_at = "estimated error", .signal = SIGUSR1});
     EXPECT_EQ(stopped.code, 128 + SIGUSR1) << stopped.err;
@@ -120,10 +120,10 @@ TEST_F(Ranks, KeepTheLightSoFarWhenStopped)
 
 TEST_F(Ranks, ContinueWhatAnotherNumberOfThemHasBegun)
 {
-    const Words more = {"--error", "0.5"};
-    const Words alone = bake_of(cornell, place.path("alone"), more);
+    const Arguments more = {"--error", "0.5"};
+    const Arguments alone = bake_of(cornell, place.path("alone"), more);
     ASSERT_EQ(run_program(alone[0], {alone.begin() + 1, alone.end()}).code, 0);
-    const Words bake = bake_of(cornell, out, joined(more, {"--resume", "--verbose"}));
+    const Arguments bake = bake_of(cornell, out, joined(more, {"--resume", "--verbose"}));
     const Outcome stopped =
         run_ranks({bake, bake}, {.interrupt_at = "estimated error", .signal = SIGUSR1});
     EXPECT_EQ(stopped.code, 128 + SIGUSR1) << stopped.err;

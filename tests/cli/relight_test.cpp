@@ -18,13 +18,13 @@ using Json = nlohmann::json;
 
 /// Relative RMSE between a state and a fresh bake of it; two bakes with other seeds are 1.5 %
 /// apart.
-constexpr double kAlike = 0.03;
+constexpr double kLikeNew = 0.03;
 
 /// A finished bake of the Cornell box.
-class Bake {
+class MatrixBake {
 public:
     /// A copy of a bake that is made once for equal options.
-    explicit Bake(const std::vector<std::string>& more = {})
+    explicit MatrixBake(const std::vector<std::string>& more = {})
     {
         static std::map<std::vector<std::string>, Workplace> made;
         const auto [found, is_new] = made.try_emplace(more);
@@ -35,7 +35,7 @@ public:
     }
 
     /// Of the Cornell box as `edit` leaves it.
-    explicit Bake(const std::function<void(Json&)>& edit) { fresh("out", edit); }
+    explicit MatrixBake(const std::function<void(Json&)>& edit) { fresh("out", edit); }
 
     std::string folder() const { return place.path("out"); }
 
@@ -84,7 +84,7 @@ const std::vector<std::string> kSky = {"--sky", "2,3,6", "--sky-directions", "25
 
 TEST(Relight, WithAllFactorsOneIsTheBake)
 {
-    const Bake bake(kSky);
+    const MatrixBake bake(kSky);
     const Json report = bake.relight({{"states", {{{"name", "as baked"}}}}});
     EXPECT_EQ(report["matrix"]["sources"], Json({"sky", "light"}));
     EXPECT_EQ(report["states"][0]["files"], Json({"as baked.exr", "as baked.png"}));
@@ -96,7 +96,7 @@ TEST(Relight, WithAllFactorsOneIsTheBake)
 
 TEST(Relight, ByThePapersFormIsTheBakeWithinAFewPerCent)
 {
-    const Bake bake({"--sky", "2,3,6", "--sky-directions", "256", "--form", "bc1"});
+    const MatrixBake bake({"--sky", "2,3,6", "--sky-directions", "256", "--form", "bc1"});
     bake.relight({{"states", {{{"name", "as baked"}}}}});
     EXPECT_LT(rmse_between(bake.place.path("out/states/as baked.exr"),
                            bake.place.path("out/lightmap.exr")),
@@ -107,15 +107,15 @@ TEST(Relight, ByThePapersFormIsTheBakeWithinAFewPerCent)
 
 TEST(Relight, WithALampSwitchedOffIsABakeWithoutIt)
 {
-    const Bake bake(kSky);
+    const MatrixBake bake(kSky);
     bake.relight({{"states",
                    {{{"name", "night"}, {"lights", {{"sky", 0}}}},
                     {{"name", "day"}, {"lights", {{"light", 0}}}},
                     {{"name", "dusk"}, {"others", 0}, {"lights", {{"light", {0.5, 0.2, 0.1}}}}}}}});
-    const Bake night;
+    const MatrixBake night;
     EXPECT_LT(
         rmse_between(bake.place.path("out/states/night.exr"), night.place.path("out/lightmap.exr")),
-        kAlike);
+        kLikeNew);
     const auto lamp = [](Json& scene) -> Json& {
         for (Json& material : scene["materials"])
             if (material["name"] == "light")
@@ -128,14 +128,14 @@ TEST(Relight, WithALampSwitchedOffIsABakeWithoutIt)
             lamp(scene)["emissiveFactor"] = {0, 0, 0};
         },
         kSky);
-    EXPECT_LT(rmse_between(bake.place.path("out/states/day.exr"), day), kAlike);
+    EXPECT_LT(rmse_between(bake.place.path("out/states/day.exr"), day), kLikeNew);
     const std::string dusk = bake.fresh("dusk", [&](Json& scene) {
         const double factors[] = {0.5, 0.2, 0.1};
         for (int c = 0; c < 3; ++c)
             lamp(scene)["emissiveFactor"][c] =
                 factors[c] * lamp(scene)["emissiveFactor"][c].get<double>();
     });
-    EXPECT_LT(rmse_between(bake.place.path("out/states/dusk.exr"), dusk), kAlike);
+    EXPECT_LT(rmse_between(bake.place.path("out/states/dusk.exr"), dusk), kLikeNew);
 }
 
 /// Adds a lamp at a place [m].
@@ -154,7 +154,7 @@ void add_lamp(Json& scene, const std::vector<double>& place)
 TEST(Relight, WithALampThatMovedIsABakeWithTheLampThere)
 {
     const std::vector<double> here = {0.45, 0.3, 0.1}, there = {0.12, 0.5, 0.3};
-    const Bake bake([&](Json& scene) { add_lamp(scene, here); });
+    const MatrixBake bake([&](Json& scene) { add_lamp(scene, here); });
     bake.relight(
         {{"states", {{{"name", "moved"}, {"lights", {{"bulb", {{"position", there}}}}}}}}});
     const std::string fresh = bake.fresh("there", [&](Json& scene) { add_lamp(scene, there); });
@@ -164,7 +164,7 @@ TEST(Relight, WithALampThatMovedIsABakeWithTheLampThere)
 
 TEST(Relight, RefusesWhatItCannotLight)
 {
-    const Bake bake;
+    const MatrixBake bake;
     expect_one_sentence(bake.fails(R"({"states": [{"name": "a", "lights": {"lamp": 1}}]})"), 2,
                         {"states.json", "\"a\"", "\"lamp\"", "\"light\""});
     expect_one_sentence(bake.fails(R"({"states": [{"name": "../a"}]})"), 2, {"../a", "/name"});
@@ -196,7 +196,7 @@ TEST(Relight, RefusesWhatItCannotLight)
 
 TEST(Relight, RefusesTheMatrixOfAnotherScene)
 {
-    const Bake bake, other(kSky);
+    const MatrixBake bake, other(kSky);
     bake.place.file("out/scene.lumelmat", bytes_of(other.place.path("out/scene.lumelmat")));
     expect_one_sentence(bake.fails(R"({"states": [{"name": "a"}]})"), 2,
                         {"scene.lumelmat", "another scene"});
@@ -204,7 +204,7 @@ TEST(Relight, RefusesTheMatrixOfAnotherScene)
 
 TEST(Why, TheFloorBesideTheRedWallIsLitByIt)
 {
-    const Bake bake;
+    const MatrixBake bake;
     // Of some texels the one of the floor that is nearest to the red wall.
     Json beside;
     double least = 1e30;
@@ -240,7 +240,7 @@ TEST(Why, TheFloorBesideTheRedWallIsLitByIt)
 
 TEST(Why, PaintsAPictureAndRefusesWhatIsNoPlace)
 {
-    const Bake bake;
+    const MatrixBake bake;
     const Outcome outcome =
         run_lumel({"why", bake.folder(), "--lumel", "0.5,0.5", "--width", "64"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;

@@ -18,14 +18,14 @@ using Json = nlohmann::json;
 
 constexpr double kAskedError = 0.02;  ///< of "--error 2"
 
-struct Box {
+struct LayeredBox {
     bool dark = false;  ///< without the light of its ceiling
     const char* file = "glossy-cornell-box.gltf";
 };
 
 /// A box with a lit ceiling and these bulbs.
 std::string box(const Workplace& place, const std::vector<std::string>& bulbs,
-                const Box& wanted = {})
+                const LayeredBox& wanted = {})
 {
     EditedScene box(wanted.file);
     Json& json = box.json();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,6 @@ using namespace lumel::test;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979;
 const std::string kFiles = support::data_path("ies/synthetic/");
 
 Photometry read(const std::string& text)
@@ -64,11 +64,11 @@ double flux(const Photometry& profile)
     constexpr int kRows = 720, kColumns = 144;
     double sum = 0.0;
     for (int row = 0; row < kRows; ++row) {
-        const double step = kPi / kRows, polar = (row + 0.5) * step;
+        const double step = std::numbers::pi / kRows, polar = (row + 0.5) * step;
         const double angle =
-            (std::cos(row * step) - std::cos((row + 1) * step)) * 2.0 * kPi / kColumns;
+            (std::cos(row * step) - std::cos((row + 1) * step)) * 2.0 * std::numbers::pi / kColumns;
         for (int column = 0; column < kColumns; ++column) {
-            const double azimuth = (column + 0.5) * 2.0 * kPi / kColumns;
+            const double azimuth = (column + 0.5) * 2.0 * std::numbers::pi / kColumns;
             const glm::vec3 direction(std::sin(polar) * std::cos(azimuth),
                                       std::sin(polar) * std::sin(azimuth), -std::cos(polar));
             sum += angle * double(intensity_towards(scene, light, direction).x);
@@ -85,8 +85,10 @@ TEST(Ies, FilesOfEveryGenerationHaveTheirFlux)
         GTEST_SKIP() << "the test data is absent";
     // 100, 70 and 0 cd at 0, 45 and 90 degrees, linear between: 2π ∫ I sin θ dθ. With
     // ∫ (a + b θ) sin θ dθ = [b sin θ − (a + b θ) cos θ].
-    const double quarter = kPi / 4.0, first = -30.0 / quarter, second = -70.0 / quarter;
-    const double small = 2.0 * kPi * ((first - second) * std::sin(quarter) + second + 100.0);
+    const double quarter = std::numbers::pi / 4.0, first = -30.0 / quarter,
+                 second = -70.0 / quarter;
+    const double small =
+        2.0 * std::numbers::pi * ((first - second) * std::sin(quarter) + second + 100.0);
     const std::pair<const char*, double> expected[] = {
         {"isotropic_1000lm", 1000.0},
         {"lambertian_down_1000lm", 999.84},

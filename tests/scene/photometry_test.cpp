@@ -5,13 +5,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "base/core/pi.h"
 #include "scene/values/scene.h"
 
 using namespace lumel;
 
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 glm::vec3 towards(float polar, float azimuth = 0.0f)
 {

@@ -1,6 +1,7 @@
 // Light from all around: where the image's texels lie, and directions drawn from it.
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -11,8 +12,6 @@
 using namespace lumel;
 
 namespace {
-
-constexpr double kPi = 3.14159265358979;
 
 /// Smooth, with a sun of four texels and a black row.
 Sky uneven_sky()
@@ -46,11 +45,12 @@ void for_sphere(const Sky& sky, const Visit& visit)
     constexpr int kFine = 32;
     const int columns = sky.width * kFine;
     for (int row = 0; row < sky.height * kFine; ++row) {
-        const double step = kPi / (sky.height * kFine), theta = (row + 0.5) * step;
+        const double step = std::numbers::pi / (sky.height * kFine), theta = (row + 0.5) * step;
         const double angle =
-            (std::cos(row * step) - std::cos((row + 1) * step)) * 2.0 * kPi / columns;
+            (std::cos(row * step) - std::cos((row + 1) * step)) * 2.0 * std::numbers::pi / columns;
         for (int column = 0; column < columns; ++column) {
-            const double phi = (column + 0.5) * 2.0 * kPi / columns, sine = std::sin(theta);
+            const double phi = (column + 0.5) * 2.0 * std::numbers::pi / columns,
+                         sine = std::sin(theta);
             visit(glm::vec3(sine * std::cos(phi), std::cos(theta), sine * std::sin(phi)), angle);
         }
     }
@@ -83,7 +83,7 @@ TEST(Sky, SolidAnglesOfTheTexelsMakeASphere)
     double sum = 0.0;
     for (int row = 0; row < sky.height; ++row)
         sum += double(sky_texel_angle(sky, row)) * sky.width;
-    EXPECT_NEAR(sum, 4.0 * kPi, 1e-5);
+    EXPECT_NEAR(sum, 4.0 * std::numbers::pi, 1e-5);
 }
 
 TEST(Sky, TheDensityOfDirectionsIntegratesToOne)

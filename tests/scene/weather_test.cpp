@@ -22,16 +22,14 @@ using support::WeatherOfHour;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-Weather read(const std::string& text)
+Weather weather_of(const std::string& text)
 {
     return read_weather(Bytes(text.begin(), text.end()), "year.epw");
 }
 
 std::string error_of(const std::string& text)
 {
-    return input_error_of([&] { read(text); });
+    return input_error_of([&] { weather_of(text); });
 }
 
 const std::string& even_year()
@@ -60,7 +58,7 @@ PerezSky sky_of(double direct, double diffuse, double elevation)
 
 TEST(Weather, HasTheHoursAndThePlaceOfItsFile)
 {
-    const Weather weather = read(weather_text([](int hour) {
+    const Weather weather = weather_of(weather_text([](int hour) {
         return WeatherOfHour{double(hour % 1000), 0.1 * (hour % 1000), 100.0 * (hour % 1000), 1.0};
     }));
     ASSERT_EQ(weather.hours.size(), 8760u);
@@ -81,8 +79,8 @@ TEST(Weather, HasTheHoursAndThePlaceOfItsFile)
 /// At Greenwich on 21 June the sun rises at 3:43 and is highest at 12:02 UTC.
 TEST(Weather, TheSunIsThatOfTheMiddleOfItsHours)
 {
-    const Weather weather =
-        read(weather_text([](int) { return WeatherOfHour{.diffuse = 1.0}; }, 51.4779, 0.0, 0.0));
+    const Weather weather = weather_of(
+        weather_text([](int) { return WeatherOfHour{.diffuse = 1.0}; }, 51.4779, 0.0, 0.0));
     const std::size_t day = 24 * 171;  // 21 June
     const auto elevation = [&](std::size_t hour) {
         return glm::degrees(
@@ -102,7 +100,7 @@ TEST(Weather, MayHaveALeapDay)
     std::string day = text.substr(from, to - from);
     for (std::size_t at = 0; (at = day.find("2001,2,28,", at)) != day.npos;)
         day.replace(at, 10, "2001,2,29,");
-    const Weather weather = read(text.insert(to, day));
+    const Weather weather = weather_of(text.insert(to, day));
     ASSERT_EQ(weather.hours.size(), 8784u);
     EXPECT_EQ(weather.hours[24 * 59].day_of_year, 60);
 }
@@ -118,7 +116,7 @@ TEST(Weather, WithoutIlluminanceIsReadByItsRadiation)
                                      {10.0, 10.0, 999999.0, 1000.0}};
     for (const WeatherOfHour& lacks : lacking) {
         const Weather weather =
-            read(weather_text([&](int hour) { return hour == 12 ? lacks : whole; }));
+            weather_of(weather_text([&](int hour) { return hour == 12 ? lacks : whole; }));
         EXPECT_FALSE(weather.hours[12].has_illuminance);
         EXPECT_EQ(weather.hours[12].diffuse, lacks.diffuse);
         EXPECT_TRUE(weather.hours[13].has_illuminance);
@@ -126,8 +124,8 @@ TEST(Weather, WithoutIlluminanceIsReadByItsRadiation)
     // Dusk is dark, and a grey hour has no sun.
     for (const WeatherOfHour& has :
          {WeatherOfHour{0.0, 10.0, 0.0, 0.0}, WeatherOfHour{0.0, 100.0, 0.0, 11000.0}})
-        EXPECT_TRUE(read(weather_text([&](int) { return has; })).hours[12].has_illuminance);
-    const Weather gap = read(weather_text([](int hour) {
+        EXPECT_TRUE(weather_of(weather_text([&](int) { return has; })).hours[12].has_illuminance);
+    const Weather gap = weather_of(weather_text([](int hour) {
         return WeatherOfHour{hour == 7 ? 9999.0 : 500.0, 100.0, 50000.0, 11000.0};
     }));
     EXPECT_EQ(gap.missing, 1u);
@@ -140,13 +138,13 @@ TEST(Weather, WithoutIlluminanceIsReadByItsRadiation)
 TEST(Weather, CountsSunAtNight)
 {
     const auto at_night = [](int later) {
-        return read(weather_text(
-                        [&](int hour) {
-                            const int of_day = (hour + later) % 24;
-                            return of_day >= 5 && of_day < 18 ? WeatherOfHour{500.0, 100.0}
-                                                              : WeatherOfHour{};
-                        },
-                        0.0, 22.5, 1.0))
+        return weather_of(weather_text(
+                              [&](int hour) {
+                                  const int of_day = (hour + later) % 24;
+                                  return of_day >= 5 && of_day < 18 ? WeatherOfHour{500.0, 100.0}
+                                                                    : WeatherOfHour{};
+                              },
+                              0.0, 22.5, 1.0))
             .at_night;
     };
     EXPECT_EQ(at_night(0), 0u);
@@ -155,7 +153,7 @@ TEST(Weather, CountsSunAtNight)
 
 TEST(Weather, MayBeginWithAByteOrderMark)
 {
-    EXPECT_EQ(read("\xEF\xBB\xBF" + even_year()).city, "Test");
+    EXPECT_EQ(weather_of("\xEF\xBB\xBF" + even_year()).city, "Test");
 }
 
 TEST(Weather, IsRefusedIfItsHoursAreOutOfOrder)
@@ -192,8 +190,8 @@ TEST(Weather, IsRefusedInTheDarkAndInAnotherTimeZone)
               "year.epw: line 1: the longitude -19.000000 is not in the time zone 2.000000: its "
               "noon is more than 3 hours off");
     // The west of China, and islands on the other side of the date line.
-    EXPECT_EQ(read(weather_text(even, 39.5, 75.9, 8.0)).hours.size(), 8760u);
-    EXPECT_EQ(read(weather_text(even, 1.9, -157.4, 14.0)).hours.size(), 8760u);
+    EXPECT_EQ(weather_of(weather_text(even, 39.5, 75.9, 8.0)).hours.size(), 8760u);
+    EXPECT_EQ(weather_of(weather_text(even, 1.9, -157.4, 14.0)).hours.size(), 8760u);
 }
 
 TEST(Weather, IsRefusedWithTheLineAtFault)
@@ -240,8 +238,8 @@ TEST(SkyPatches, AreTheHemisphere)
             projected += patches.projected(k);
             parts[patches.whole(k)] += patches.solid_angle(k);
         }
-        EXPECT_NEAR(angle, 2.0 * kPi, 1e-12);
-        EXPECT_NEAR(projected, kPi, 1e-12);
+        EXPECT_NEAR(angle, 2.0 * std::numbers::pi, 1e-12);
+        EXPECT_NEAR(projected, std::numbers::pi, 1e-12);
         for (std::size_t k = 0; k < parts.size(); ++k)
             EXPECT_NEAR(parts[k], SkyPatches().solid_angle(k), 1e-12) << k;
     }
@@ -277,7 +275,7 @@ TEST(SkyPatches, GiveAnOpenPlaneTheLightOfTheOvercastSky)
     double sum = 0.0;
     for (std::size_t k = 0; k < luminance.size(); ++k)
         sum += luminance[k] * patches.projected(k);
-    EXPECT_NEAR(sum, 7.0 * kPi / 3.0, 0.002 * 7.0 * kPi / 3.0);
+    EXPECT_NEAR(sum, 7.0 * std::numbers::pi / 3.0, 0.002 * 7.0 * std::numbers::pi / 3.0);
 }
 
 /// [PISMS90] (1), (2), (7) and (8) by hand, for the sun at 30°: Z = π/3, 1.041 Z³ = 1.19544,
@@ -291,7 +289,7 @@ TEST(PerezSky, HasTheClearnessBrightnessAndEfficacyOfItsEquations)
                 141.88 + 1.90 * 2.0038 - 53.24 * 0.5 - 14.03 * std::log(1.994 * 80.0 / 1367.0),
                 0.05);
     EXPECT_NEAR(clear.direct_efficacy(),
-                105.75 + 0.77 * 2.0038 - 1.26 * std::exp(5.73 * kPi / 3.0 - 5.0) -
+                105.75 + 0.77 * 2.0038 - 1.26 * std::exp(5.73 * std::numbers::pi / 3.0 - 5.0) -
                     34.44 * 1.994 * 80.0 / 1367.0,
                 0.05);
     EXPECT_EQ(sky_of(0.0, 100.0, 30.0).clearness(), 1.0);
