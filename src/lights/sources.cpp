@@ -351,13 +351,13 @@ float LightSources::form_factors(const Source& source, const RayOrigin& start,
 {
     float sum = 0.0f;
     for (std::uint32_t t = source.first; t < source.last; ++t) {
-        const glm::vec3* c = triangles_[t].corner;
-        float factor = polygon_form_factor(start.position, start.normal, c, 3);
-        if (source.double_sided) {
-            const glm::vec3 back[3] = {c[0], c[2], c[1]};
-            factor += polygon_form_factor(start.position, start.normal, back, 3);
-        }
-        sum += of_triangles[t - source.first] = std::max(factor, 0.0f);
+        const Triangle& triangle = triangles_[t];
+        const float behind = glm::dot(triangle.normal, triangle.corner[0] - start.position);
+        float factor = 0.0f;
+        if (source.double_sided || behind < 0.0f)
+            factor = signed_form_factor(start.position, start.normal, triangle.corner, 3);
+        sum += of_triangles[t - source.first] =
+            source.double_sided ? std::abs(factor) : std::max(factor, 0.0f);
     }
     return sum;
 }

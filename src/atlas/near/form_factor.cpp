@@ -9,7 +9,6 @@
 
 #include "atlas/near/near_field.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,8 +45,8 @@ double edge_term(const dvec3& n, const dvec3& a, const dvec3& b)
 
 }  // namespace
 
-float polygon_form_factor(const glm::vec3& x, const glm::vec3& n, const glm::vec3* corners,
-                          int count)
+float signed_form_factor(const glm::vec3& x, const glm::vec3& n, const glm::vec3* corners,
+                         int count)
 {
     const dvec3 normal(n), origin(x);
     dvec3 previous = dvec3(corners[count - 1]) - origin;
@@ -78,7 +77,7 @@ float polygon_form_factor(const glm::vec3& x, const glm::vec3& n, const glm::vec
     }
     if (cut)
         sum += edge_term(normal, leaves, returns);
-    return float(std::max(0.0, sum * (0.5 / std::numbers::pi)));
+    return float(sum * (0.5 / std::numbers::pi));
 }
 
 }  // namespace lumel

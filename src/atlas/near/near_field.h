@@ -1,6 +1,7 @@
 #pragma once
 // Exact form factors of pairs of lumels too close for point sampling.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -47,9 +48,16 @@ NearField build_near_field_among(const std::vector<char>& chosen, const Scene& s
                                  NearFieldOptions options);
 
 /// Form factor (irradiance per radiosity) at point x with unit normal n from a convex polygon of
-/// uniform radiosity, clipped to x's horizon: Lambert's edge sum. The polygon emits from its
-/// counter-clockwise side; the result is 0 on the other.
-float polygon_form_factor(const glm::vec3& x, const glm::vec3& n, const glm::vec3* corners,
-                          int count);
+/// uniform radiosity, clipped to x's horizon: Lambert's edge sum. Negative if x is on the side from
+/// which its corners run clockwise.
+float signed_form_factor(const glm::vec3& x, const glm::vec3& n, const glm::vec3* corners,
+                         int count);
+
+/// The same of a polygon that emits from its counter-clockwise side alone.
+inline float polygon_form_factor(const glm::vec3& x, const glm::vec3& n, const glm::vec3* corners,
+                                 int count)
+{
+    return std::max(signed_form_factor(x, n, corners, count), 0.0f);
+}
 
 }  // namespace lumel

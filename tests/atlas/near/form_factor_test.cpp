@@ -65,6 +65,15 @@ TEST(PolygonFormFactor, OfEverythingAboveIsOne)
     EXPECT_NEAR(seen(ceiling(wide, wide, 0.1f)), 1.0, 1e-4);
 }
 
+TEST(PolygonFormFactor, FromBehindIsZeroAndItsSignedValueThatOfTheFrontNegated)
+{
+    std::vector<glm::vec3> back = ceiling({-0.3, 1.2}, {0.4, 0.9}, 0.5f);
+    const float front = seen(back);
+    std::reverse(back.begin(), back.end());
+    EXPECT_EQ(seen(back), 0.0f);
+    EXPECT_NEAR(signed_form_factor(kOrigin, kUp, back.data(), int(back.size())), -front, 1e-6f);
+}
+
 TEST(PolygonFormFactor, IsTheSameForTheWholeAndForItsParts)
 {
     const float whole = seen(wall({-1.0, 1.0}, {-1.0, 2.0}, 0.3f));
