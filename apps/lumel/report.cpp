@@ -28,9 +28,11 @@ int run(const ReportArguments& arguments)
     Json room;
     if (!arguments.room.use.empty())
         room = room_data(arguments.folder, arguments.room);
+    // Before the page, which a build without three.js refuses.
+    if (!room.is_null())
+        fmt::print("{}", room_text(room));
     const std::size_t size = write_page(page, folders, room);
-    fmt::print("{}{}: {:.1f} MB\n", room.is_null() ? "" : room_text(room), page,
-               double(size) / kMegabyte);
+    fmt::print("{}: {:.1f} MB\n", page, double(size) / kMegabyte);
     return kExitDone;
 }
 

@@ -280,6 +280,25 @@ TEST(KeepLinks, RelightOfABakeToAnErrorIsThatBake)
     EXPECT_LE(std::sqrt(squares / double(baked.values.size())), kResidual * mean);
 }
 
+// The light after the edit is noisier than that which the bake reached with its rays.
+TEST(KeepLinks, AnUpdateSendsNoMoreRaysThanItsBakeMay)
+{
+    constexpr int kMost = 48;
+    const KeptBox box;
+    const std::string folder = box.place.path("out");
+    const Outcome outcome =
+        run_lumel({"bake", box.scene(kAsItIs), folder, "--sky", box.place.path("sky.exr"), "--size",
+                   kKeptSide, "--keep-links", "--quality", "fine", "--shots", std::to_string(kMost),
+                   "--preview-width", "0", "-q"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    update(box, folder, [](Json& scene) {
+        named_in(scene["materials"], "light")["emissiveFactor"] = {0, 0, 0};
+    });
+    const Json solution = Json::parse(bytes_of(folder + "/report.json"))["solution"];
+    EXPECT_GT(solution["shots"], 0);
+    EXPECT_LE(solution["shots"], kMost);
+}
+
 TEST(Links, AreAsManyAsGiven)
 {
     const Workplace place;

@@ -127,6 +127,16 @@ TEST(Measure, GivesDaylightFactorsOfABakeUnderTheOvercastSkyAlone)
     EXPECT_EQ(mixed["notes"].size(), 1u);
 }
 
+TEST(Measure, APlaneOutsideOfTheSceneIsAWarning)
+{
+    const MeasuredBake bake("cornell-box.gltf", {"--shots", "16"});
+    for (const std::vector<std::string>& outside :
+         {std::vector<std::string>{"--plane", "50"},
+          std::vector<std::string>{"--plane", "0.2", "--bounds", "7,7,8,8"}})
+        EXPECT_TRUE(has(bake.measure(outside).err, "the plane is outside of the scene"));
+    EXPECT_EQ(bake.measure({"--plane", "0.2"}).err, "");
+}
+
 TEST(Measure, RefusesWhatItCannotUse)
 {
     const MeasuredBake bake("cornell-box.gltf", {"--shots", "16"});

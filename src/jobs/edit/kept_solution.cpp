@@ -12,24 +12,21 @@ namespace {
 /// Progress at the first estimate.
 constexpr double kFirstLight = 0.9;
 
-/// Limits of the bake: its target errors, or the errors it reached if rays or time ended it.
+/// Targets and limits of the bake; targets that it missed are those that it reached.
 SolverOptions limits_of(const BakeRecord& baked)
 {
     SolverOptions options = baked.solver;
-    const bool ended_early = options.max_shots > 0 || options.max_seconds > 0.0;
-    options.max_shots = 0;
+    options.max_shots = ray_limit(baked);
     options.max_seconds = 0.0;
     options.max_bytes = free_bytes_for_links();
-    if (std::get<LinksOptions>(options.method).even_rays > 0)
+    if (std::get<LinksOptions>(options.method).even_rays > 0 || options.max_shots == 0)
         return options;
-    if (ended_early)
-        options.target_error = std::max(options.target_error, baked.error);
-    if (ended_early && options.target_dark_error > 0.0)
-        options.target_dark_error = std::max(options.target_dark_error, baked.dark_error);
-    if (ended_early)
-        options.target_quality = reached_quality(baked);
-    if (!options.has_target())
-        options.target_error = SolverOptions{}.target_error;
+    const auto reached = [](double target, double error) {
+        return target > 0.0 ? std::max(target, error) : 0.0;
+    };
+    options.target_error = reached(options.target_error, baked.error);
+    options.target_dark_error = reached(options.target_dark_error, baked.dark_error);
+    options.target_quality = reached_quality(baked);
     return options;
 }
 
@@ -87,7 +84,10 @@ KeptSolution::KeptSolution(const SolveScene& scene, const BakeRecord& baked,
 void KeptSolution::light(const ProgressCallback& progress)
 {
     solver_.relight();
-    solve(solver_, options_, [&](const SolverState& state) {
+    // The solver ends itself at its last ray, and may refine direct light before.
+    SolverOptions options = options_;
+    options.max_shots = 0;
+    solve(solver_, options, [&](const SolverState& state) {
         notify(progress, state.shots > 0 ? kFirstLight : kFirstLight * state.begun);
         return true;
     });

@@ -43,6 +43,18 @@ WorkPlane plane_of(const MeasureOptions& options, const SolveScene& prepared)
     return plane;
 }
 
+/// Warns of a plane above, below or beside all surfaces: a slip of units or axes.
+void warn_if_outside(const WorkPlane& plane, const SolveScene& prepared, Stages& stages)
+{
+    const glm::dvec3 low = prepared.low_in_file(), high = prepared.high_in_file();
+    if (plane.height < low.y || plane.height > high.y || plane.high.x < low.x ||
+        plane.low.x > high.x || plane.high.y < low.z || plane.low.y > high.z)
+        stages.warn(
+            fmt::format("the plane is outside of the scene, which reaches from {:.4g},{:.4g},"
+                        "{:.4g} to {:.4g},{:.4g},{:.4g} m",
+                        low.x, low.y, low.z, high.x, high.y, high.z));
+}
+
 MeterPoint meter_point(const FinishedBake& bake, const MeasurePoint& point)
 {
     return {glm::vec3(point.place - bake.prepared.scene.origin),
@@ -352,6 +364,7 @@ MeasureSummary measure(const std::string& folder, const MeasureOptions& options,
     if (options.height) {
         summary.plane = plane_of(options, bake.prepared);
         grid = points_on(*summary.plane);
+        warn_if_outside(*summary.plane, bake.prepared, stages);
         for (const glm::dvec3& place : grid.points)
             summary.rows.push_back({.point = {.place = place}});
     }

@@ -12,6 +12,7 @@
 #include "base/json/json_file.h"
 #include "jobs/edit/finished_bake.h"
 #include "lights/light_sources.h"
+#include "results/measure/room_floor.h"
 #include "results/page/lamp_list.h"
 #include "results/page/whole_map.h"
 
@@ -164,6 +165,28 @@ FloorArea bounds_of(const SolveScene& scene)
     return {{low.x, low.z}, {high.x, high.z}};
 }
 
+/// The floor within bounds [m]; without a roof, the lowest surface of the scene.
+RoomFloor floor_within(const SolveScene& scene, const FloorArea& bounds)
+{
+    const glm::dvec2 shift(scene.scene.origin.x, scene.scene.origin.z);
+    std::optional<RoomFloor> found =
+        floor_of_room(scene.rays, {bounds.low - shift, bounds.high - shift});
+    if (!found)
+        return {scene.low_in_file().y, bounds};
+    return {found->height + scene.scene.origin.y,
+            {found->area.low + shift, found->area.high + shift}};
+}
+
+void check_height(double height, const SolveScene& scene)
+{
+    const double low = scene.low_in_file().y, high = scene.high_in_file().y;
+    if (height < low || height > high)
+        throw Error(ErrorKind::input, fmt::format("--plane {:.4g}", height),
+                    fmt::format("is outside of the scene, which reaches from {:.4g} to {:.4g} m "
+                                "of height",
+                                low, high));
+}
+
 /// True if the scene has a sky or a sun.
 bool has_daylight(const SolveScene& scene)
 {
@@ -216,12 +239,15 @@ Json room_data(const std::string& folder, const RoomOptions& options)
     const RoomUse& use = room_use_named(options.use);
     const FinishedBake bake(folder);
     const SolveScene& scene = bake.prepared;
-    const FloorArea room = options.bounds ? area_of(*options.bounds) : bounds_of(scene);
+    const RoomFloor floor =
+        floor_within(scene, options.bounds ? area_of(*options.bounds) : bounds_of(scene));
+    const FloorArea room = options.bounds ? area_of(*options.bounds) : floor.area;
     std::optional<FloorArea> task;
     if (options.task)
         task = area_of(*options.task);
     const std::vector<AreaPoints> areas = points_in_areas(room, task ? &*task : nullptr);
-    const double height = options.height.value_or(scene.low_in_file().y + use.height);
+    const double height = options.height.value_or(floor.height + use.height);
+    check_height(height, scene);
     const AreaLimits limits{options.illuminance.value_or(use.illuminance),
                             options.uniformity.value_or(use.uniformity)};
     const RoomMeter meter(folder, bake, options.samples);
@@ -241,7 +267,11 @@ Json room_data(const std::string& folder, const RoomOptions& options)
 
 std::string room_text(const Json& room)
 {
-    std::string text;
+    const Json& bounds = room["room"];
+    std::string text =
+        fmt::format("work plane at {:.4g} m, in the room from {:.4g},{:.4g} to {:.4g},{:.4g} m\n",
+                    room["height"].get<double>(), bounds[0].get<double>(), bounds[1].get<double>(),
+                    bounds[2].get<double>(), bounds[3].get<double>());
     for (const Json& area : room["areas"])
         text += line_of(area, room["maintenance"].get<double>());
     if (room["has_daylight"].get<bool>())

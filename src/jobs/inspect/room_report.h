@@ -13,8 +13,8 @@ namespace lumel {
 
 struct RoomOptions {
     std::string use;                              ///< name of a RoomUse
-    std::optional<double> height;                 ///< y [m]; default: the use's above the room
-    std::optional<std::array<double, 4>> bounds;  ///< min x, z, max x, z [m]; default: the scene's
+    std::optional<double> height;                 ///< y [m]; default: the use's above the floor
+    std::optional<std::array<double, 4>> bounds;  ///< min x, z, max x, z [m]; default: of the floor
     std::optional<std::array<double, 4>> task;    ///< task area [m]; default: nearly all
     double maintenance = 0.8;                     ///< maintained / new illuminance
     std::optional<double> illuminance;            ///< required of the task [lx]; default: the use's

@@ -73,6 +73,7 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
     if (baked.solver.target_quality.is_given()) {
         options.solver.target_error = baked.solver.target_error;
         options.solver.target_quality = reached_quality(baked);
+        options.solver.max_shots = ray_limit(baked);
     }
     const Setting setting(
         edit.now.scene,

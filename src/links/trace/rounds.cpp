@@ -125,9 +125,14 @@ void LinkRadiosity::begin_round()
         begin_known_round();
         return;
     }
+    if (most_shots_ > 0 && state_.shots >= most_shots_) {
+        state_.ended = true;
+        stage_ = Stage::direct;  // without work
+        return;
+    }
     const double fit = rays_that_fit();
     double most = options_.even_rays > 0 ? double(kMaxLinks) : std::max(fit, double(kFirstRays));
-    if (most_shots_ > state_.shots)
+    if (most_shots_ > 0)
         most = std::min(most, double(most_shots_ - state_.shots) / double(kSolutions));
     if (state_.shots == 0) {
         send_first_rays(most);

@@ -212,6 +212,12 @@ Quality reached_quality(const BakeRecord& record)
             .eye_error = reached(wanted.eye_error, record.eye_error)};
 }
 
+std::uint64_t ray_limit(const BakeRecord& record)
+{
+    const SolverOptions& options = record.solver;
+    return options.max_shots > 0 || options.max_seconds <= 0.0 ? options.max_shots : record.shots;
+}
+
 BakeRecord read_bake_record(const std::string& folder)
 {
     namespace fs = std::filesystem;

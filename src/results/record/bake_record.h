@@ -65,6 +65,10 @@ struct BakeRecord {
 /// The quality asked for, or, if that is worse, the one reached.
 Quality reached_quality(const BakeRecord& record);
 
+/// Rays per lumel at which work like that of the bake ends: its limit, or those that it had time
+/// for; 0: none.
+std::uint64_t ray_limit(const BakeRecord& record);
+
 /// Atlas options as settings of a report.
 Json atlas_settings(const AtlasOptions& options);
 

@@ -1,0 +1,151 @@
+#include "results/measure/room_floor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace lumel {
+namespace {
+
+constexpr int kLinesAlongSide = 64;
+constexpr int kMostSurfaces = 256;     ///< that a line meets
+constexpr float kRoomHeight = 1.5f;    ///< least height of a room [m]
+constexpr double kShareOfRoom = 0.25;  ///< least part of the room's longest side at its bounds
+constexpr double kSameFloor = 0.01;    ///< [m]
+constexpr float kAbove = 1.0f;         ///< start of the lines above the scene [m]
+
+/// True if much of what is seen sideways shows its back: not all, as sides of a solid can coincide
+/// with those of the next.
+bool is_in_a_solid(const RayScene& rays, const glm::vec3& from)
+{
+    constexpr int kMuch = 2;
+    int backs = 0;
+    for (const glm::vec3& direction :
+         {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)}) {
+        RayHit hit;
+        backs += rays.closest(ray_out(from, direction, 0), hit) && !hit.front ? 1 : 0;
+    }
+    return backs >= kMuch;
+}
+
+/// Lower end of the lowest space along a line down.
+std::optional<double> floor_at(const RayScene& rays, float x, float z)
+{
+    const glm::vec3 start(x, rays.high().y + kAbove, z), down(0.0f, -1.0f, 0.0f);
+    const float far = std::numeric_limits<float>::max();
+    std::optional<double> floor;
+    RayHit upper, lower;
+    if (!rays.closest(start, down, 0.0f, far, 0, upper))
+        return floor;
+    for (int k = 0; k < kMostSurfaces; ++k) {
+        if (!rays.closest(start, down, upper.distance + upper.ray_offset, far, 0, lower))
+            break;
+        const glm::vec3 middle = start + 0.5f * (upper.distance + lower.distance) * down;
+        if (lower.distance - upper.distance >= kRoomHeight && !is_in_a_solid(rays, middle))
+            floor = double(start.y) - double(lower.distance);
+        upper = lower;
+    }
+    return floor;
+}
+
+/// Index of a value that most others are close to; they ascend.
+std::size_t most_common(const std::vector<double>& values)
+{
+    std::size_t best = 0, most = 0;
+    for (std::size_t first = 0, last = 0; first < values.size(); ++first) {
+        while (last < values.size() && values[last] - values[first] <= kSameFloor)
+            ++last;
+        if (last - first > most) {
+            most = last - first;
+            best = first + most / 2;
+        }
+    }
+    return best;
+}
+
+/// Lines down in the middles of cells that fill an area.
+class Lines {
+public:
+    Lines(const RayScene& rays, const FloorArea& area)
+        : area_(area),
+          cell_(area.size() / double(kLinesAlongSide))
+    {
+        for (int i = 0; i < kLinesAlongSide; ++i)
+            for (int j = 0; j < kLinesAlongSide; ++j) {
+                const glm::dvec2 at = corner(i, j) + 0.5 * cell_;
+                floors_.push_back(floor_at(rays, float(at.x), float(at.y)));
+            }
+    }
+
+    /// Height of most; empty: of none.
+    std::optional<double> height() const
+    {
+        std::vector<double> found;
+        for (const std::optional<double>& floor : floors_)
+            if (floor)
+                found.push_back(*floor);
+        if (found.empty())
+            return {};
+        std::sort(found.begin(), found.end());
+        return found[most_common(found)];
+    }
+
+    /// Bounds of what has a floor at this height, without niches.
+    FloorArea bounds(double height) const
+    {
+        std::array<int, kLinesAlongSide> columns{}, rows{};
+        for (int i = 0; i < kLinesAlongSide; ++i)
+            for (int j = 0; j < kLinesAlongSide; ++j) {
+                const auto& floor = floors_[std::size_t(i) * kLinesAlongSide + std::size_t(j)];
+                const int has = floor && std::abs(*floor - height) <= kSameFloor ? 1 : 0;
+                columns[std::size_t(i)] += has;
+                rows[std::size_t(j)] += has;
+            }
+        const auto [x0, x1] = range_of(columns);
+        const auto [z0, z1] = range_of(rows);
+        return {corner(x0, z0), corner(x1, z1)};
+    }
+
+    const glm::dvec2& cell() const { return cell_; }
+
+private:
+    /// First and after the last of those that have enough lines.
+    static std::pair<int, int> range_of(const std::array<int, kLinesAlongSide>& lines)
+    {
+        const double least = kShareOfRoom * *std::max_element(lines.begin(), lines.end());
+        const auto enough = [&](int count) { return count >= least; };
+        const auto first = std::find_if(lines.begin(), lines.end(), enough);
+        const auto last = std::find_if(lines.rbegin(), lines.rend(), enough);
+        return {int(first - lines.begin()), int(last.base() - lines.begin())};
+    }
+
+    glm::dvec2 corner(int i, int j) const { return area_.low + cell_ * glm::dvec2(i, j); }
+
+    const FloorArea area_;
+    const glm::dvec2 cell_;
+    std::vector<std::optional<double>> floors_;
+};
+
+}  // namespace
+
+std::optional<RoomFloor> floor_of_room(const RayScene& rays, const FloorArea& area)
+{
+    constexpr int kFiner = 2;  // times that the lines move together
+    std::optional<Lines> lines(std::in_place, rays, area);
+    const std::optional<double> height = lines->height();
+    if (!height)
+        return {};
+    RoomFloor floor{*height, lines->bounds(*height)};
+    for (int k = 0; k < kFiner; ++k) {
+        // The bounds can lie up to a cell further out.
+        const FloorArea around{glm::max(floor.area.low - lines->cell(), area.low),
+                               glm::min(floor.area.high + lines->cell(), area.high)};
+        lines.emplace(rays, around);
+        floor.area = lines->bounds(*height);
+    }
+    return floor;
+}
+
+}  // namespace lumel
