@@ -1,5 +1,7 @@
 #include "links/live/baked_light.h"
 
+#include <algorithm>
+
 #include "atlas/lumels/sides.h"
 #include "base/core/error.h"
 #include "links/trace/links.h"
@@ -9,6 +11,16 @@ namespace {
 
 /// Progress when the scene is prepared, and at the first estimate.
 constexpr double kPrepared = 0.1, kFirstLight = 0.5;
+
+/// Rays per lumel after which a bake to kUsualError ends as it is: few lumels beside lamps can hold
+/// all of the error. For other errors, as many more as variance falls by.
+constexpr double kMostRays = 96.0, kUsualError = 0.02;
+
+std::uint64_t most_rays(double target_error)
+{
+    const double ratio = kUsualError / target_error;
+    return std::uint64_t(std::clamp(kMostRays * ratio * ratio, kMostRays, 1e6));
+}
 
 bool is_done(const SolverState& state, double target_error)
 {
@@ -27,7 +39,9 @@ BakedLight bake_standing(StandingScene standing, const Lumels& own, const LinksO
         },
         {}, part_of(progress, 0.0, kPrepared));
     LinkRadiosity solver(scene, options,
-                         {.target_error = target_error, .max_bytes = free_bytes_for_links()});
+                         {.max_shots = most_rays(target_error),
+                          .target_error = target_error,
+                          .max_bytes = free_bytes_for_links()});
     for (SolverState state; !is_done(state, target_error); state = solver.state()) {
         notify(progress, kPrepared + (kFirstLight - kPrepared) * state.begun);
         solver.step();
