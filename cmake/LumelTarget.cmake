@@ -47,7 +47,8 @@ endforeach()
 #            [UNDER <command> <argument> …] [JOINT] [SANITIZE]):
 # one GoogleTest program under tests/ and what ctest runs of it. A part is the tests of a filter
 # (that of --gtest_filter) in a process of their own; what no part has is one more, of the program's name.
-# UNDER: what ctest runs the program by. JOINT: has many sources, which are compiled jointly. SANITIZE: `./test --sanitize` runs what is not slow of it.
+# UNDER: what ctest runs the program by. JOINT: has many sources, which are compiled jointly.
+# SANITIZE: `./test --sanitize` runs what is not slow of it.
 # Labels: `quick` ends in a minute with all others of its kind, `normal`, and `slow`.
 function(lumel_test name)
     cmake_parse_arguments(TEST "JOINT;SANITIZE" "LABEL" "SOURCES;USES;SYSTEM;PARTS;UNDER" ${ARGN})

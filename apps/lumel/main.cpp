@@ -96,8 +96,8 @@ int run_rank(Ranks& ranks, int count, char** values)
 
 int main(int count, char** values)
 {
-    constexpr int kWithArguments =
-        3;  // program, command, arguments: help and lists need little memory
+    // Program, command, arguments: help and lists need little memory.
+    constexpr int kWithArguments = 3;
     if (count >= kWithArguments)
         use_huge_pages(values);
     std::unique_ptr<Ranks> ranks;

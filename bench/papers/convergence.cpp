@@ -56,16 +56,16 @@ bool is_glossy(const Settings& settings)
 /// The papers' that solve the scene's materials, and the default of the method that is given.
 std::vector<Course> courses_of(const Settings& settings)
 {
-    std::vector<Course> schemes;
+    std::vector<Course> courses;
     if (!is_glossy(settings)) {
         auto own = options_of<StochasticOptions>(settings);
         if (settings.given.values.count("projection") == 0)
             own.views.projection = Projection::hemisphere;
-        schemes.push_back({"[BJ04]", "bj04", papers_iteration(own)});
+        courses.push_back({"[BJ04]", "bj04", papers_iteration(own)});
     }
-    schemes.push_back({"[BSS05]", "bss05", papers_iteration(options_of<GlossyOptions>(settings))});
-    schemes.push_back({"default", "default", solver_of(settings)});
-    return schemes;
+    courses.push_back({"[BSS05]", "bss05", papers_iteration(options_of<GlossyOptions>(settings))});
+    courses.push_back({"default", "default", solver_of(settings)});
+    return courses;
 }
 
 /// Diffuse surfaces as a glossy method sees them.
@@ -116,7 +116,7 @@ std::string stem_of(const ConvergenceSettings& settings)
     return settings.folder + "/" + std::filesystem::path(settings.shared.scene).stem().string();
 }
 
-/// Maps and pictures of one scheme.
+/// Maps and pictures of one course.
 struct Row {
     std::vector<Image> maps, pictures;
 };
@@ -159,19 +159,19 @@ Cell by_our_default(const gpu::Device& device, const SolveScene& world,
     return words_of(error_of(map_of(world, ours), truth).relative_rmse, ours.cpu);
 }
 
-void add_row(Report& report, const Course& scheme, const SolverState& state, double cpu,
+void add_row(Report& report, const Course& course, const SolverState& state, double cpu,
              const std::optional<MapError>& error)
 {
-    report.row({scheme.name, state.iterations, batch_of(scheme.options.method), state.shots,
+    report.row({course.name, state.iterations, batch_of(course.options.method), state.shots,
                 error ? fixed(100.0 * error->relative_rmse, 2) : none(),
                 error ? signed_fixed(100.0 * error->bias, 2) : none(), fixed(cpu, 3)});
 }
 
 /// Nothing is shown without a folder.
-Row follow(const ConvergenceSettings& settings, const Course& scheme, const gpu::Device& device,
+Row follow(const ConvergenceSettings& settings, const Course& course, const gpu::Device& device,
            const SolveScene& world, const std::vector<Image>& truth, Report& report)
 {
-    const SolverOptions& options = scheme.options;
+    const SolverOptions& options = course.options;
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
     const std::optional<LobeParticles> particles = particles_for(world, options);
@@ -200,7 +200,7 @@ Row follow(const ConvergenceSettings& settings, const Course& scheme, const gpu:
         std::optional<MapError> error;
         if (!truth.empty())
             error = error_of(step.map, truth);
-        add_row(report, scheme, solver->state(), watch.cpu, error);
+        add_row(report, course, solver->state(), watch.cpu, error);
         if (settings.folder.empty())
             continue;
         step.radiosity = finish_map(world.scene, world.atlas, world.lumels,
@@ -208,7 +208,7 @@ Row follow(const ConvergenceSettings& settings, const Course& scheme, const gpu:
         step.picture = picture_of(settings, options, device, world, step);
         steps.push_back(std::move(step));
     }
-    return steps.empty() ? Row() : write_steps(settings, scheme.word, steps);
+    return steps.empty() ? Row() : write_steps(settings, course.word, steps);
 }
 
 }  // namespace
@@ -230,11 +230,11 @@ void follow_convergence(const ConvergenceSettings& settings, Report& report)
                  by_our_default(device, world, truth));
     std::vector<std::vector<Image>> maps, pictures;
     std::string names;
-    for (const Course& scheme : courses_of(settings.shared)) {
-        Row row = follow(settings, scheme, device, world, truth, report);
+    for (const Course& course : courses_of(settings.shared)) {
+        Row row = follow(settings, course, device, world, truth, report);
         maps.push_back(std::move(row.maps));
         pictures.push_back(std::move(row.pictures));
-        names += (names.empty() ? "" : ", ") + scheme.name;
+        names += (names.empty() ? "" : ", ") + course.name;
     }
     if (!settings.folder.empty()) {
         const auto show = [&](const char* what, const std::vector<std::vector<Image>>& rows,

@@ -352,9 +352,9 @@ float LightSources::form_factors(const Source& source, const RayOrigin& start,
     float sum = 0.0f;
     for (std::uint32_t t = source.first; t < source.last; ++t) {
         const Triangle& triangle = triangles_[t];
-        const float behind = glm::dot(triangle.normal, triangle.corner[0] - start.position);
+        const float height = glm::dot(triangle.normal, start.position - triangle.corner[0]);
         float factor = 0.0f;
-        if (source.double_sided || behind < 0.0f)
+        if (source.double_sided || height > 0.0f)
             factor = signed_form_factor(start.position, start.normal, triangle.corner, 3);
         sum += of_triangles[t - source.first] =
             source.double_sided ? std::abs(factor) : std::max(factor, 0.0f);

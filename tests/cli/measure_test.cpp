@@ -342,6 +342,7 @@ TEST(Measure, RoomsThatCannotBeReportedAreRefused)
     refused({"--en12464", "office", "--task", "0,0,9,9"}, {"--task", "within"});
     refused({"--en12464", "office", "--task", "1,1,0,0"}, {"--task", "X0 < X1"});
     refused({"--en12464", "office", "--bounds", "-1e6,-1e6,1e6,1e6"}, {"--bounds", "10,000"});
+    refused({"--en12464", "office", "--plane", "50"}, {"--plane", "outside"});
     refused({"--en12464", "office", "--maintenance", "1.5"}, {"--maintenance"});
 }
 

@@ -12,21 +12,13 @@ namespace {
 /// Progress at the first estimate.
 constexpr double kFirstLight = 0.9;
 
-/// Targets and limits of the bake; targets that it missed are those that it reached.
+/// Targets and limits of the bake; in place of targets that it missed, what it reached.
 SolverOptions limits_of(const BakeRecord& baked)
 {
-    SolverOptions options = baked.solver;
+    SolverOptions options = reached_targets(baked);
     options.max_shots = ray_limit(baked);
     options.max_seconds = 0.0;
     options.max_bytes = free_bytes_for_links();
-    if (std::get<LinksOptions>(options.method).even_rays > 0 || options.max_shots == 0)
-        return options;
-    const auto reached = [](double target, double error) {
-        return target > 0.0 ? std::max(target, error) : 0.0;
-    };
-    options.target_error = reached(options.target_error, baked.error);
-    options.target_dark_error = reached(options.target_dark_error, baked.dark_error);
-    options.target_quality = reached_quality(baked);
     return options;
 }
 

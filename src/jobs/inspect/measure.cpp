@@ -47,7 +47,7 @@ WorkPlane plane_of(const MeasureOptions& options, const SolveScene& prepared)
 void warn_if_outside(const WorkPlane& plane, const SolveScene& prepared, Stages& stages)
 {
     const glm::dvec3 low = prepared.low_in_file(), high = prepared.high_in_file();
-    if (plane.height < low.y || plane.height > high.y || plane.high.x < low.x ||
+    if (!is_near_scene(plane.height, low.y, high.y) || plane.high.x < low.x ||
         plane.low.x > high.x || plane.high.y < low.z || plane.low.y > high.z)
         stages.warn(
             fmt::format("the plane is outside of the scene, which reaches from {:.4g},{:.4g},"

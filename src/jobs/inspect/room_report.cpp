@@ -180,7 +180,7 @@ RoomFloor floor_within(const SolveScene& scene, const FloorArea& bounds)
 void check_height(double height, const SolveScene& scene)
 {
     const double low = scene.low_in_file().y, high = scene.high_in_file().y;
-    if (height < low || height > high)
+    if (!is_near_scene(height, low, high))
         throw Error(ErrorKind::input, fmt::format("--plane {:.4g}", height),
                     fmt::format("is outside of the scene, which reaches from {:.4g} to {:.4g} m "
                                 "of height",
@@ -239,6 +239,8 @@ Json room_data(const std::string& folder, const RoomOptions& options)
     const RoomUse& use = room_use_named(options.use);
     const FinishedBake bake(folder);
     const SolveScene& scene = bake.prepared;
+    if (options.height)
+        check_height(*options.height, scene);
     const RoomFloor floor =
         floor_within(scene, options.bounds ? area_of(*options.bounds) : bounds_of(scene));
     const FloorArea room = options.bounds ? area_of(*options.bounds) : floor.area;
@@ -247,7 +249,6 @@ Json room_data(const std::string& folder, const RoomOptions& options)
         task = area_of(*options.task);
     const std::vector<AreaPoints> areas = points_in_areas(room, task ? &*task : nullptr);
     const double height = options.height.value_or(floor.height + use.height);
-    check_height(height, scene);
     const AreaLimits limits{options.illuminance.value_or(use.illuminance),
                             options.uniformity.value_or(use.uniformity)};
     const RoomMeter meter(folder, bake, options.samples);

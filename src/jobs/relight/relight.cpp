@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "atlas/finish/finish.h"
-#include "atlas/prepare/lit_sides.h"
 #include "base/core/usage.h"
 #include "base/json/json_file.h"
 #include "jobs/bake/outputs.h"
@@ -55,10 +54,8 @@ SolveScene read_world(const std::string& folder, const BakeRecord& baked,
     Scene scene = read_scene((fs::path(folder) / kSceneFile).string(), MaterialModel::diffuse, {});
     scene.hash = baked.scene_hash;  // its vertices are split, its light is the same
     return SolveScene(
-        std::move(scene), [&](const Scene& read, const RayScene& rays, const ProgressCallback&) {
-            return with_inner_sides(
-                read, rays,
-                written_atlas(read, baked.pages, float(baked.texels_per_metre), solution.charts));
+        std::move(scene), [&](const Scene& read, const RayScene&, const ProgressCallback&) {
+            return written_atlas(read, baked.pages, float(baked.texels_per_metre), solution.charts);
         });
 }
 

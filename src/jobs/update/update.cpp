@@ -72,7 +72,7 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
     options.solver.target_error = baked.error > 0.0 ? baked.error : SolverOptions{}.target_error;
     if (baked.solver.target_quality.is_given()) {
         options.solver.target_error = baked.solver.target_error;
-        options.solver.target_quality = reached_quality(baked);
+        options.solver.target_quality = baked.solver.target_quality;
         options.solver.max_shots = ray_limit(baked);
     }
     const Setting setting(

@@ -92,7 +92,7 @@ StoredLinks renumbered(const StoredLinks& kept, const Renumbering& now);
 /// Copies what an atlas has beside the triangles of the scene: texture coordinates, sides.
 void keep_places(const Atlas& atlas, StoredLinks& kept);
 
-/// The atlas of keep_places(). scene: as write_scene_glb wrote it from that
+/// The atlas that keep_places() stored. scene: as write_scene_glb wrote it from that
 /// atlas. pages: of that atlas. Throws Error{input} if its surfaces or size differ.
 Atlas atlas_of(const StoredLinks& kept, const Scene& scene, const Pages& pages);
 

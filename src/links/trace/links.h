@@ -179,6 +179,7 @@ private:
     void links_state(StateReader& reader, LinkTable& links);
     void check_agreement() const;
     void begin_round();
+    void end();
     void begin_known_round();
     void begin_links();
     bool can_guide() const;

@@ -59,15 +59,18 @@ void LinkRadiosity::go_on()
     const std::vector<Wanted> all = wanted();
     const bool reached = std::ranges::all_of(all, &Wanted::is_reached);
     const bool is_even = options_.even_rays > 0;
-    if ((reached && !all.empty()) || is_even) {
-        state_.ended = is_even;
+    if (is_even) {
+        end();
+        return;
+    }
+    if (reached && !all.empty()) {
         stage_ = Stage::direct;  // without work
         return;
     }
     if (refine_direct())
         stage_ = Stage::direct;
     else if (stored_ && then_ == Then::end)
-        state_.ended = true;
+        end();
     else
         begin_round();
 }
@@ -118,6 +121,13 @@ bool LinkRadiosity::refine_direct()
     return direct_->refine(share, state_.shots * work_.order.size(), weight);
 }
 
+/// Ends the solution as it is.
+void LinkRadiosity::end()
+{
+    state_.ended = true;
+    stage_ = Stage::direct;  // without work
+}
+
 /// Starts a round with the rays that the target error requires, within limits.
 void LinkRadiosity::begin_round()
 {
@@ -126,8 +136,7 @@ void LinkRadiosity::begin_round()
         return;
     }
     if (most_shots_ > 0 && state_.shots >= most_shots_) {
-        state_.ended = true;
-        stage_ = Stage::direct;  // without work
+        end();
         return;
     }
     const double fit = rays_that_fit();

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kLinesAlongSide = 64;
 constexpr int kMostSurfaces = 256;     ///< that a line meets
+constexpr double kRoomSide = 1.5;      ///< least width of a room [m]
 constexpr float kRoomHeight = 1.5f;    ///< least height of a room [m]
 constexpr double kShareOfRoom = 0.25;  ///< least part of the room's longest side at its bounds
 constexpr double kSameFloor = 0.01;    ///< [m]
@@ -145,6 +146,9 @@ std::optional<RoomFloor> floor_of_room(const RayScene& rays, const FloorArea& ar
         lines.emplace(rays, around);
         floor.area = lines->bounds(*height);
     }
+    const glm::dvec2 size = floor.area.size();
+    if (std::min(size.x, size.y) < kRoomSide)
+        floor.area = area;
     return floor;
 }
 

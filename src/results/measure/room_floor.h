@@ -10,7 +10,8 @@ namespace lumel {
 
 struct RoomFloor {
     double height = 0.0;  ///< y [m]
-    FloorArea area;       ///< bounds of what has this floor, to a hundredth of its size
+    FloorArea area;       ///< bounds of what has this floor, to a hundredth of its size; all that
+                          ///< was searched if it is smaller than a room, as below a pendant lamp
 };
 
 /// The floor within an area [m], both in the world of the rays: where most vertical lines end in

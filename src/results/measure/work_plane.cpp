@@ -7,6 +7,12 @@
 
 namespace lumel {
 
+bool is_near_scene(double height, double low, double high)
+{
+    constexpr double kAboveGround = 3.0, kRounding = 1e-3;  // [m]
+    return height >= low - kRounding && height <= high + kAboveGround;
+}
+
 PlaneGrid points_on(const WorkPlane& plane)
 {
     const glm::dvec2 size = plane.high - plane.low;

@@ -18,6 +18,10 @@ struct WorkPlane {
     glm::dvec2 low{0.0}, high{0.0};  ///< x and z of two corners
 };
 
+/// True if a height is between those of the lowest and the highest surface, or just above that, as
+/// over an open ground [m].
+bool is_near_scene(double height, double low, double high);
+
 /// Points row by row from low z on, x fastest, with equal margins on opposite sides.
 struct PlaneGrid {
     int columns = 0, rows = 0;

@@ -202,20 +202,28 @@ BakeRecord record_of(const JsonView& report, const std::string& folder)
     return record;
 }
 
-Quality reached_quality(const BakeRecord& record)
+SolverOptions reached_targets(const BakeRecord& record)
 {
-    const auto reached = [](double wanted, double now) {
-        return wanted > 0.0 ? std::max(wanted, now) : 0.0;
+    SolverOptions options = record.solver;
+    const auto reach = [](double& target, double now) {
+        if (target > 0.0)
+            target = std::max(target, now);
     };
-    const Quality& wanted = record.solver.target_quality;
-    return {.visible_noise = reached(wanted.visible_noise, record.visible_noise.worst_chart),
-            .eye_error = reached(wanted.eye_error, record.eye_error)};
+    reach(options.target_error, record.error);
+    reach(options.target_dark_error, record.dark_error);
+    reach(options.target_quality.visible_noise, record.visible_noise.worst_chart);
+    reach(options.target_quality.eye_error, record.eye_error);
+    return options;
 }
 
 std::uint64_t ray_limit(const BakeRecord& record)
 {
-    const SolverOptions& options = record.solver;
-    return options.max_shots > 0 || options.max_seconds <= 0.0 ? options.max_shots : record.shots;
+    const SolverOptions &given = record.solver, reached = reached_targets(record);
+    const bool has_missed = !given.has_target() || reached.target_error > given.target_error ||
+                            reached.target_dark_error > given.target_dark_error ||
+                            reached.target_quality != given.target_quality;
+    const bool is_cut_short = record.interrupted || (given.max_seconds > 0.0 && has_missed);
+    return is_cut_short ? record.shots : given.max_shots;
 }
 
 BakeRecord read_bake_record(const std::string& folder)

@@ -62,11 +62,11 @@ struct BakeRecord {
     std::vector<std::string> files;  ///< written
 };
 
-/// The quality asked for, or, if that is worse, the one reached.
-Quality reached_quality(const BakeRecord& record);
+/// Options of the bake's solver, with what it reached in place of targets that it missed.
+SolverOptions reached_targets(const BakeRecord& record);
 
 /// Rays per lumel at which work like that of the bake ends: its limit, or those that it had time
-/// for; 0: none.
+/// for if time or the user ended it; 0: none.
 std::uint64_t ray_limit(const BakeRecord& record);
 
 /// Atlas options as settings of a report.

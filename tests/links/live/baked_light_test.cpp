@@ -17,6 +17,7 @@ namespace {
 using Lights = std::vector<glm::vec3>;
 
 constexpr double kTarget = 0.02;
+constexpr std::uint64_t kMostRays = 96;  ///< of a bake to this target
 const std::string kBlock = "short block";
 const glm::mat4 kMotion = glm::translate(glm::mat4(1.0f), glm::vec3(0.04f, 0.0f, -0.05f));
 constexpr glm::vec3 kPaint(0.1f, 0.2f, 0.7f), kDimmed(0.4f, 0.3f, 0.3f), kSky(0.5f, 0.6f, 0.7f);
@@ -59,7 +60,7 @@ struct Bake {
     Bake(const LiveLinks& live, std::uint32_t seed)
         : scene(edited_box(), [&](const Scene&, const RayScene&,
                                   const ProgressCallback&) { return live.atlas(); }),
-          solver(scene, {.seed = seed}, {.target_error = kTarget})
+          solver(scene, {.seed = seed}, {.max_shots = kMostRays, .target_error = kTarget})
     {
         while (solver.state().error < 0.0 || solver.state().error > kTarget)
             solver.step();

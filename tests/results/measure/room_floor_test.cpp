@@ -53,6 +53,19 @@ TEST(RoomFloor, IsNeitherTheGroundNorADeskAndEndsAtTheWalls)
     }
 }
 
+// Only its lines meet a surface 1.5 m above another.
+TEST(RoomFloor, BelowAPendantLampIsThatOfAllThatWasSearched)
+{
+    Scene scene = house(false);
+    add_solid(scene, {2.7f, 3.0f, 1.5f}, {3.1f, 3.2f, 1.9f});
+    const FloorArea area{{0, 0}, {6, 4}};
+    const std::optional<RoomFloor> floor = floor_of_room(RayScene(scene), area);
+    ASSERT_TRUE(floor);
+    EXPECT_NEAR(floor->height, 1.0, 1e-5);
+    EXPECT_EQ(floor->area.low, area.low);
+    EXPECT_EQ(floor->area.high, area.high);
+}
+
 TEST(RoomFloor, IsNotKnownWithoutARoof)
 {
     const Scene scene = house(false);
