@@ -270,7 +270,7 @@ std::string room_text(const Json& room)
 {
     const Json& bounds = room["room"];
     std::string text =
-        fmt::format("work plane at {:.4g} m, in the room from {:.4g},{:.4g} to {:.4g},{:.4g} m\n",
+        fmt::format("work plane at {:.4g} m, in the room from {:.2f},{:.2f} to {:.2f},{:.2f} m\n",
                     room["height"].get<double>(), bounds[0].get<double>(), bounds[1].get<double>(),
                     bounds[2].get<double>(), bounds[3].get<double>());
     for (const Json& area : room["areas"])
