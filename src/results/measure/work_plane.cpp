@@ -9,8 +9,8 @@ namespace lumel {
 
 bool is_near_scene(double height, double low, double high)
 {
-    constexpr double kAboveGround = 3.0, kRounding = 1e-3;  // [m]
-    return height >= low - kRounding && height <= high + kAboveGround;
+    constexpr double kAboveGround = 3.0, kSlack = 1e-3;  // [m]
+    return height >= low - kSlack && height <= high + kAboveGround;
 }
 
 PlaneGrid points_on(const WorkPlane& plane)
