@@ -12,9 +12,10 @@ namespace {
 /// Progress when the scene is prepared, and at the first estimate.
 constexpr double kPrepared = 0.1, kFirstLight = 0.5;
 
-/// Rays per lumel after which a bake to kUsualError or more ends as it is: few lumels beside lamps
-/// can hold all of the error. For smaller errors, as many more as variance falls by.
-constexpr double kMostRays = 96.0, kUsualError = 0.02;
+/// Rays per lumel after which a bake to kUsualError or more ends as it is, four times those of a
+/// bake by default: few lumels beside lamps can hold all of the error. For smaller errors, as many
+/// more as variance falls by.
+constexpr double kMostRays = 384.0, kUsualError = 0.02;
 constexpr double kMostOfAll = 1e6;  ///< what no memory holds
 
 std::uint64_t most_rays(double target_error)

@@ -17,7 +17,7 @@ namespace {
 using Lights = std::vector<glm::vec3>;
 
 constexpr double kTarget = 0.02;
-constexpr std::uint64_t kMostRays = 96;  ///< of a bake to this target
+constexpr std::uint64_t kMostRays = 384;  ///< of a bake to this target
 const std::string kBlock = "short block";
 const glm::mat4 kMotion = glm::translate(glm::mat4(1.0f), glm::vec3(0.04f, 0.0f, -0.05f));
 constexpr glm::vec3 kPaint(0.1f, 0.2f, 0.7f), kDimmed(0.4f, 0.3f, 0.3f), kSky(0.5f, 0.6f, 0.7f);
