@@ -659,10 +659,10 @@ public:
     LiveLinksState update(double budget_ms);
     const LiveLinksState& state() const;  ///< after the last update()
     /// Solves the scene as it is now by the method of bake(), with all edits, to this estimated
-    /// relative error, or with 384 rays per lumel at 2 % and four times as many at half of that, and
-    /// returns the error reached. map() and lumels() then contain this light until the next edit.
-    /// Takes as long as a bake. Throws Error{input} unless the error is above 0, or
-    /// if the light of a closed room is never absorbed.
+    /// relative error, or with 384 rays per lumel at 2 % and four times as many at half of that,
+    /// and returns the error reached. map() and lumels() then contain this light until the next
+    /// edit. Takes as long as a bake. Throws Error{input} unless the error is above 0, or if the
+    /// light of a closed room is never absorbed.
     double bake(double error = 0.02);
 
     /// The lightmap after the last update() or bake(), finished as by bake(), which takes time.
