@@ -62,7 +62,7 @@ void add_follow_options(Command& command, PlayOptions& options)
           &options.link_rays, text_of(options.link_rays), link_rays()},
          {"--error", "PERCENT",
           "With --solver links and without --budget, bake each frame to this estimated relative "
-          "error, at 2 with at most 384 rays per lumel; 0: show the light of links",
+          "error, with at most 384 rays per lumel at 2 %; 0: show the light of links",
           [&options](double percent) { options.bake_error = percent / 100.0; },
           text_of(100.0 * options.bake_error), between(0.0, kMaxErrorPercent)},
          {"--budget", "MS",

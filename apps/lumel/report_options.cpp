@@ -27,7 +27,7 @@ void add_room(Command& command, RoomOptions& room)
                     .needs = "--en12464"}),
          rectangle(room.bounds, {.names = "--bounds",
                                  .help = "Corners of the room in metres",
-                                 .default_value = "those of the floor",
+                                 .default_value = "the bounds of the floor",
                                  .needs = "--en12464"}),
          {.names = "--plane",
           .type = "Y",

@@ -62,8 +62,8 @@ void add_light_of_session(Command& command, SessionOptions& options)
           [&options](double percent) { options.residual = percent / 100.0; },
           text_of(100.0 * options.residual), positive()},
          {"--error", "PERCENT",
-          "Bake the scene at rest to this estimated relative error, at 2 with at most 384 rays per "
-          "lumel; 0: show the light of links",
+          "Bake the scene at rest to this estimated relative error, with at most 384 rays per "
+          "lumel at 2 %; 0: show the light of links",
           [&options](double percent) { options.bake_error = percent / 100.0; },
           text_of(100.0 * options.bake_error), between(0.0, kMaxErrorPercent)},
          {"--seed", "N", "Random seed", &options.seed, text_of(options.seed), whole(0, kMaxSeed)},

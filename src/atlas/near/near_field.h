@@ -53,7 +53,7 @@ NearField build_near_field_among(const std::vector<char>& chosen, const Scene& s
 float signed_form_factor(const glm::vec3& x, const glm::vec3& n, const glm::vec3* corners,
                          int count);
 
-/// The same of a polygon that emits from its counter-clockwise side alone.
+/// Form factor of a polygon that emits only from its counter-clockwise side; 0 on the other.
 inline float polygon_form_factor(const glm::vec3& x, const glm::vec3& n, const glm::vec3* corners,
                                  int count)
 {

@@ -12,7 +12,7 @@ namespace {
 /// Progress at the first estimate.
 constexpr double kFirstLight = 0.9;
 
-/// Targets and limits of the bake; in place of targets that it missed, what it reached.
+/// Targets and limits of the bake. Targets that it missed are replaced by what it reached.
 SolverOptions limits_of(const BakeRecord& baked)
 {
     SolverOptions options = reached_targets(baked);
@@ -76,7 +76,7 @@ KeptSolution::KeptSolution(const SolveScene& scene, const BakeRecord& baked,
 void KeptSolution::light(const ProgressCallback& progress)
 {
     solver_.relight();
-    // The solver ends itself at its last ray, and may refine direct light before.
+    // The solver enforces the ray limit itself, after it has refined direct light.
     SolverOptions options = options_;
     options.max_shots = 0;
     solve(solver_, options, [&](const SolverState& state) {

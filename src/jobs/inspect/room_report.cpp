@@ -165,7 +165,7 @@ FloorArea bounds_of(const SolveScene& scene)
     return {{low.x, low.z}, {high.x, high.z}};
 }
 
-/// The floor within bounds [m]; without a roof, the lowest surface of the scene.
+/// The floor within bounds [m], or the lowest surface of the scene if none is found.
 RoomFloor floor_within(const SolveScene& scene, const FloorArea& bounds)
 {
     const glm::dvec2 shift(scene.scene.origin.x, scene.scene.origin.z);

@@ -89,7 +89,7 @@ struct Renumbering {
 /// texture coordinates.
 StoredLinks renumbered(const StoredLinks& kept, const Renumbering& now);
 
-/// Copies what an atlas has beside the triangles of the scene: texture coordinates, sides.
+/// Copies what an atlas adds to the triangles of the scene: texture coordinates, charts, sides.
 void keep_places(const Atlas& atlas, StoredLinks& kept);
 
 /// The atlas that keep_places() stored. scene: as write_scene_glb wrote it from that

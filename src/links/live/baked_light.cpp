@@ -12,11 +12,10 @@ namespace {
 /// Progress when the scene is prepared, and at the first estimate.
 constexpr double kPrepared = 0.1, kFirstLight = 0.5;
 
-/// Rays per lumel after which a bake to kUsualError or more ends as it is, four times those of a
-/// bake by default: few lumels beside lamps can hold all of the error. For smaller errors, as many
-/// more as variance falls by.
+/// Ray limit per lumel of a bake to kUsualError or more: four times that of a default bake, because
+/// a few lumels beside lamps can hold all of the error. For smaller errors it grows as 1 / error².
 constexpr double kMostRays = 384.0, kUsualError = 0.02;
-constexpr double kMostOfAll = 1e6;  ///< what no memory holds
+constexpr double kMostOfAll = 1e6;  ///< beyond any memory
 
 std::uint64_t most_rays(double target_error)
 {

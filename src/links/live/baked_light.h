@@ -29,8 +29,8 @@ struct BakedLight {
     double error = -1.0;  ///< estimated error of all, relative
 };
 
-/// Solves on the CPU. own: lumels of the live scene. target_error: above 0; its rays are limited
-/// to what it takes in most scenes. Throws Error.
+/// Solves on the CPU. own: lumels of the live scene. target_error: above 0; the ray limit that
+/// goes with it can end the bake before. Throws Error.
 BakedLight bake_standing(StandingScene standing, const Lumels& own, const LinksOptions& options,
                          double target_error, const ProgressCallback& progress = {});
 

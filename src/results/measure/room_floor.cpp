@@ -17,21 +17,21 @@ constexpr double kShareOfRoom = 0.25;  ///< least part of the room's longest sid
 constexpr double kSameFloor = 0.01;    ///< [m]
 constexpr float kAbove = 1.0f;         ///< start of the lines above the scene [m]
 
-/// True if much of what is seen sideways shows its back: not all, as sides of a solid can coincide
-/// with those of the next.
+/// True if two of four horizontal rays hit back faces. Not all four do: adjacent solids can share a
+/// side.
 bool is_in_a_solid(const RayScene& rays, const glm::vec3& from)
 {
-    constexpr int kMuch = 2;
+    constexpr int kLeastBacks = 2;
     int backs = 0;
     for (const glm::vec3& direction :
          {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)}) {
         RayHit hit;
         backs += rays.closest(ray_out(from, direction, 0), hit) && !hit.front ? 1 : 0;
     }
-    return backs >= kMuch;
+    return backs >= kLeastBacks;
 }
 
-/// Lower end of the lowest space along a line down.
+/// Height of the floor of the lowest room along a vertical line.
 std::optional<double> floor_at(const RayScene& rays, float x, float z)
 {
     const glm::vec3 start(x, rays.high().y + kAbove, z), down(0.0f, -1.0f, 0.0f);
@@ -51,7 +51,7 @@ std::optional<double> floor_at(const RayScene& rays, float x, float z)
     return floor;
 }
 
-/// Index of a value that most others are close to; they ascend.
+/// Index of the most common value, to kSameFloor, of ascending ones.
 std::size_t most_common(const std::vector<double>& values)
 {
     std::size_t best = 0, most = 0;
@@ -66,7 +66,7 @@ std::size_t most_common(const std::vector<double>& values)
     return best;
 }
 
-/// Lines down in the middles of cells that fill an area.
+/// Vertical lines through the centres of the cells of an area.
 class Lines {
 public:
     Lines(const RayScene& rays, const FloorArea& area)
@@ -80,7 +80,7 @@ public:
             }
     }
 
-    /// Height of most; empty: of none.
+    /// The most common height of floors; empty if there is no floor.
     std::optional<double> height() const
     {
         std::vector<double> found;
@@ -93,7 +93,7 @@ public:
         return found[most_common(found)];
     }
 
-    /// Bounds of what has a floor at this height, without niches.
+    /// Bounds of the floor at this height, without niches.
     FloorArea bounds(double height) const
     {
         std::array<int, kLinesAlongSide> columns{}, rows{};
@@ -112,7 +112,7 @@ public:
     const glm::dvec2& cell() const { return cell_; }
 
 private:
-    /// First and after the last of those that have enough lines.
+    /// First row or column with enough lines, and the one after the last.
     static std::pair<int, int> range_of(const std::array<int, kLinesAlongSide>& lines)
     {
         const double least = kShareOfRoom * *std::max_element(lines.begin(), lines.end());
@@ -133,14 +133,14 @@ private:
 
 std::optional<RoomFloor> floor_of_room(const RayScene& rays, const FloorArea& area)
 {
-    constexpr int kFiner = 2;  // times that the lines move together
+    constexpr int kFiner = 2;  // further passes, each with closer lines
     std::optional<Lines> lines(std::in_place, rays, area);
     const std::optional<double> height = lines->height();
     if (!height)
         return {};
     RoomFloor floor{*height, lines->bounds(*height)};
     for (int k = 0; k < kFiner; ++k) {
-        // The bounds can lie up to a cell further out.
+        // The floor can reach up to a cell beyond these bounds.
         const FloorArea around{glm::max(floor.area.low - lines->cell(), area.low),
                                glm::min(floor.area.high + lines->cell(), area.high)};
         lines.emplace(rays, around);

@@ -10,12 +10,12 @@ namespace lumel {
 
 struct RoomFloor {
     double height = 0.0;  ///< y [m]
-    FloorArea area;       ///< bounds of what has this floor, to a hundredth of its size; all that
-                          ///< was searched if it is smaller than a room, as below a pendant lamp
+    FloorArea area;       ///< bounds of the floor, to 1 % of its size; the whole search area if the
+                          ///< floor is smaller than a room, as below a pendant lamp
 };
 
-/// The floor within an area [m], both in the world of the rays: where most vertical lines end in
-/// the lowest space of at least 1.5 m between two surfaces. Empty if there is none, as without a
+/// The floor within an area [m], both in the coordinates of the rays: the most common lower end of
+/// the lowest gap of at least 1.5 m along vertical lines. Empty if there is none, as without a
 /// ceiling.
 std::optional<RoomFloor> floor_of_room(const RayScene& rays, const FloorArea& area);
 

@@ -18,8 +18,8 @@ struct WorkPlane {
     glm::dvec2 low{0.0}, high{0.0};  ///< x and z of two corners
 };
 
-/// True if a height is between those of the lowest and the highest surface, or just above that, as
-/// over an open ground [m].
+/// True if a height lies between the lowest and the highest surface, or at most 3 m above, as a
+/// work plane over open ground does [m].
 bool is_near_scene(double height, double low, double high);
 
 /// Points row by row from low z on, x fastest, with equal margins on opposite sides.

@@ -62,11 +62,11 @@ struct BakeRecord {
     std::vector<std::string> files;  ///< written
 };
 
-/// Options of the bake's solver, with what it reached in place of targets that it missed.
+/// Options of the bake's solver. Targets that it missed are replaced by what it reached.
 SolverOptions reached_targets(const BakeRecord& record);
 
-/// Rays per lumel at which work like that of the bake ends: its limit, or those that it had time
-/// for if time or the user ended it; 0: none.
+/// Ray limit per lumel for an update or a state: that of the bake, or, if time or the user ended
+/// it, the rays that it sent; 0: none.
 std::uint64_t ray_limit(const BakeRecord& record);
 
 /// Atlas options as settings of a report.
