@@ -113,7 +113,7 @@ TEST(Measure, ThePreviewIsDrawnInFalseColours)
     EXPECT_EQ(bytes_of(picture).substr(1, 3), "PNG");
 }
 
-TEST(Measure, GivesDaylightFactorsOfABakeUnderTheOvercastSkyAlone)
+TEST(Measure, GivesDaylightFactorsOfABakeUnderAnOvercastSkyAlone)
 {
     const MeasuredBake bake("city.gltf", {"--sky", "overcast:5000", "--shots", "64"});
     // Far above the roofs.
@@ -121,6 +121,9 @@ TEST(Measure, GivesDaylightFactorsOfABakeUnderTheOvercastSkyAlone)
     EXPECT_EQ(report["outdoors"], 5000.0);
     EXPECT_NEAR(report["points"][0]["daylight_factor"].get<double>(), 100.0, 0.5);
     EXPECT_NEAR(report["points"][0]["illuminance"].get<double>(), 5000.0, 25.0);
+    const MeasuredBake standard("city.gltf", {"--sky", "cie:1", "--shots", "64"});
+    const Json open = standard.json({"--at", "0,1000,0", "--samples", "16384"});
+    EXPECT_NEAR(open["points"][0]["daylight_factor"].get<double>(), 100.0, 0.5);
     const MeasuredBake lit("cornell-box.gltf", {"--sky", "overcast", "--shots", "64"});
     const Json mixed = lit.json({"--at", "0.2,0.2,0.2"});
     EXPECT_FALSE(mixed["points"][0].contains("daylight_factor"));

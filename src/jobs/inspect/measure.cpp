@@ -16,6 +16,7 @@
 #include "jobs/solve/stages.h"
 #include "results/daylight/weather_notes.h"
 #include "results/files/folder.h"
+#include "scene/sky/cie_sky.h"
 
 namespace lumel {
 namespace {
@@ -158,12 +159,12 @@ void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather&
         summary.notes.push_back(std::move(note));
 }
 
-/// Illuminance of an open plane, if the overcast sky is the only light.
+/// Illuminance of an open plane, if an overcast sky is the only light.
 std::optional<double> outdoors(const FinishedBake& bake, const LightMeter& meter,
                                MeasureSummary& summary)
 {
     const LightOptions& lights = bake.record.lights;
-    if (!lights.cie || lights.cie->type != kOvercastType)
+    if (!lights.cie || !is_overcast(lights.cie->type))
         return std::nullopt;
     if (meter.has_lamps()) {
         summary.notes.emplace_back(

@@ -66,7 +66,7 @@ struct MeasureSummary {
     std::vector<MeasureRow> rows;
     std::optional<WorkPlane> plane;
     PlaneFigures figures;            ///< over the plane
-    std::optional<double> outdoors;  ///< under the overcast sky, if it is the only light [lx]
+    std::optional<double> outdoors;  ///< under an overcast sky, if it is the only light [lx]
     std::optional<MeasuredYear> year;
     std::vector<std::string> notes;  ///< sentences for the user
     std::string report;              ///< JSON

@@ -55,6 +55,12 @@ const Distribution& distribution(int type)
 
 }  // namespace
 
+bool is_overcast(int type)
+{
+    constexpr int kStandardOvercast = 1;
+    return type == kStandardOvercast || type == kOvercastType;
+}
+
 bool depends_on_sun(int type)
 {
     return type != kOvercastType && (distribution(type).c != 0.0 || distribution(type).e != 0.0);

@@ -1,5 +1,5 @@
 #pragma once
-// The skies of the CIE, of which the overcast one defines daylight factors.
+// The skies of the CIE, of which the overcast ones define daylight factors.
 
 #include <optional>
 
@@ -18,6 +18,9 @@ struct CieSky {
     float lux = kCieLux;             ///< illuminance of an open horizontal plane facing up [lx]
     std::optional<SunPosition> sun;  ///< where the sky is brightest; its own light is not included
 };
+
+/// True for the overcast skies, 1 (standard) and 16: under both, daylight factors are defined.
+bool is_overcast(int type);
 
 /// True if the luminance depends on the sun's place.
 bool depends_on_sun(int type);

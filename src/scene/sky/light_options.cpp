@@ -334,6 +334,7 @@ void set_sky(LightOptions& options, const std::string& text)
 
 void set_sun(LightOptions& options, const std::string& text)
 {
+    constexpr double kMostAzimuth = 360.0;  // [degrees], either way round
     const std::vector<std::string> parts = split(text);
     const auto first = number_of(parts[0]);
     const auto second = parts.size() > 1 ? number_of(parts[1]) : std::nullopt;
@@ -342,6 +343,8 @@ void set_sun(LightOptions& options, const std::string& text)
                             " is neither AZIMUTH,ELEVATION in degrees nor LATITUDE,LONGITUDE,"
                             "DATETIME such as 47.5,19.0,2024-06-21T12:00:00Z");
     if (parts.size() == 2) {
+        if (std::abs(*first) > kMostAzimuth)
+            refuse("--sun", "the azimuth must lie between -360 and 360 degrees");
         if (std::abs(*second) > 90.0)
             refuse("--sun", "the elevation must lie between -90 and 90 degrees");
         options.sun = SunPosition{glm::radians(*first), glm::radians(*second)};
