@@ -40,6 +40,13 @@ public:
     /// variance, with at most `most` rays per source in total. weight [N]: of each lumel's squared
     /// error. Returns false if such a pass would gain less than 10 %.
     bool refine(double share, std::uint64_t most, const std::vector<double>& weight);
+    /// [N] After refine(): 0 for lumels that this pass leaves as they are, else 1 + log2 of their
+    /// rays after it, in units of the fewest; at most kMaxLevel.
+    std::vector<std::uint8_t> levels() const;
+    /// Schedules a pass of another estimator, by its levels(). Returns false if no lumel gains
+    /// rays.
+    bool refine_to(const std::vector<std::uint8_t>& levels);
+    static constexpr std::uint8_t kMaxLevel = 14;  ///< of kMaxShadowRays
 
     /// Two independent estimates [2][N] [lx].
     const std::vector<glm::vec3>& half(int h) const { return half_[h]; }
@@ -103,7 +110,7 @@ private:
     /// Rays of one half per source: of all lumels, and of those that see part of a source.
     static constexpr std::uint32_t kFewRays = 8, kManyRays = 16;
     /// Maximum rays of one half to a source, and maximum growth per pass.
-    static constexpr std::uint32_t kMaxShadowRays = kManyRays << 13, kMaxTimes = 16;
+    static constexpr std::uint32_t kMaxShadowRays = kManyRays << (kMaxLevel - 1), kMaxTimes = 16;
     using OfCells = std::array<glm::vec3, kCells>;
 
     struct Choice;
@@ -182,6 +189,7 @@ private:
     double mean_of_all() const;
     bool differs(std::size_t lumel, double mean) const;
     std::uint32_t wanted(std::uint32_t lumel, double rays) const;
+    bool begin_pass_of_many();
     void begin_pass();
     void keep_cells();
     template <class Keeps>

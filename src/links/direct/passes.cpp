@@ -2,6 +2,7 @@
 // the variance is largest.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/core/luminance.h"
@@ -115,12 +116,37 @@ bool DirectEstimator::refine(double share, std::uint64_t most, const std::vector
     enough(high);
     if (left > kMinGain * now)
         return false;
-    many_.clear();
+    for (const std::uint32_t i : work_.order)
+        more_[i] = wanted(i, high * deviation[i]);
+    return begin_pass_of_many();
+}
+
+std::vector<std::uint8_t> DirectEstimator::levels() const
+{
+    std::vector<std::uint8_t> levels(work_.order.size(), 0);
+    for (const std::uint32_t i : many_)
+        levels[i] = std::uint8_t(std::bit_width((taken_[i] + more_[i]) / kManyRays));
+    return levels;
+}
+
+bool DirectEstimator::refine_to(const std::vector<std::uint8_t>& levels)
+{
+    if (first_pass_)  // as long as there are no sources
+        return false;
     for (const std::uint32_t i : work_.order) {
-        more_[i] = work_.is_buried(i) ? 0 : wanted(i, high * deviation[i]);
-        if (more_[i] > 0)
-            many_.push_back(i);
+        const std::uint32_t all = levels[i] > 0 ? kManyRays << (levels[i] - 1) : 0;
+        more_[i] = all > taken_[i] ? all - taken_[i] : 0;
     }
+    return begin_pass_of_many();
+}
+
+/// Begins a pass of the lumels that it adds rays to. Returns false if there are none.
+bool DirectEstimator::begin_pass_of_many()
+{
+    many_.clear();
+    for (const std::uint32_t i : work_.order)
+        if (more_[i] > 0 && !work_.is_buried(i))
+            many_.push_back(i);
     if (many_.empty())
         return false;
     begin_pass();

@@ -34,8 +34,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
-// 8: has the inner sides of charts
-constexpr std::uint64_t kVersion = 8;
+// 9: has the passes of direct light
+constexpr std::uint64_t kVersion = 9;
 constexpr std::uint32_t kMaxSide = 65536;  ///< side of an atlas [texels]
 constexpr std::uint32_t kWord = 64;        ///< [bits]
 
@@ -108,7 +108,8 @@ void contents(Archive& archive, StoredLinks& kept, Words& links)
 {
     archive(kept.scene_hash, kept.seed, kept.shared_directions, kept.ray_offset, kept.side,
             kept.texels_per_metre, kept.charts, kept.shows_front, kept.back_shift, kept.inner,
-            kept.sheets, kept.instances, kept.boxes, kept.lumels, kept.guide, kept.rounds, links);
+            kept.sheets, kept.instances, kept.boxes, kept.lumels, kept.guide, kept.rounds,
+            kept.passes, links);
 }
 
 bool is_in(const glm::vec2& place, std::uint32_t side)
@@ -132,6 +133,20 @@ bool is_sound(const StoredLinks::Round& round, const StoredLinks& kept)
            round.mean <= double(std::numeric_limits<std::uint16_t>::max());
 }
 
+/// True if passes are of all lumels, and in the order of the bake.
+bool are_sound(const std::vector<StoredLinks::Pass>& passes, const StoredLinks& kept)
+{
+    const auto is_one = [&](const StoredLinks::Pass& pass) {
+        return pass.aim <= ErrorOf::chart && pass.rounds <= kept.rounds.size() &&
+               pass.levels.size() == kept.lumels.size() &&
+               std::ranges::all_of(pass.levels, [](std::uint8_t level) {
+                   return level <= DirectEstimator::kMaxLevel;
+               });
+    };
+    return std::ranges::all_of(passes, is_one) &&
+           std::ranges::is_sorted(passes, {}, &StoredLinks::Pass::rounds);
+}
+
 /// True if numbers are in range and the number of links is right.
 bool is_sound(const StoredLinks& kept, const Words& links)
 {
@@ -149,6 +164,7 @@ bool is_sound(const StoredLinks& kept, const Words& links)
            kept.guide.fits(kept.lumels.size()) &&
            std::all_of(kept.rounds.begin(), kept.rounds.end(),
                        [&](const StoredLinks::Round& round) { return is_sound(round, kept); }) &&
+           are_sound(kept.passes, kept) &&
            (kept.back_shift.empty() || kept.back_shift.size() == kept.charts) &&
            std::all_of(kept.back_shift.begin(), kept.back_shift.end(), within) &&
            (kept.inner.empty() || kept.inner.size() == kept.charts) &&

@@ -60,6 +60,15 @@ StoredLinks::Round renumbered(const StoredLinks::Round& round, const Renumbering
     return result;
 }
 
+StoredLinks::Pass renumbered(const StoredLinks::Pass& pass, const Renumbering& now)
+{
+    StoredLinks::Pass result{pass.rounds, pass.aim, std::vector<std::uint8_t>(now.lumels_now, 0)};
+    for (std::size_t i = 0; i < now.lumels.size(); ++i)
+        if (now.lumels[i] != Renumbering::kNotThere)
+            result.levels[now.lumels[i]] = pass.levels[i];
+    return result;
+}
+
 }  // namespace
 
 std::uint64_t StoredLinks::shots() const
@@ -108,6 +117,8 @@ StoredLinks renumbered(const StoredLinks& kept, const Renumbering& now)
     const std::vector<std::uint32_t> numbers = numbers_now(kept, now);
     for (const StoredLinks::Round& round : kept.rounds)
         result.rounds.push_back(renumbered(round, now, numbers));
+    for (const StoredLinks::Pass& pass : kept.passes)
+        result.passes.push_back(renumbered(pass, now));
     result.side = kept.side;
     return result;
 }

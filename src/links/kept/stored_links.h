@@ -15,8 +15,13 @@
 
 namespace lumel {
 
+/// An error that a bake has a target for: of all lumels, of dark ones, relative to the light
+/// around, or visible noise of a chart.
+enum class ErrorOf : std::uint8_t { all, dark, eye, chart };
+
 /// Ends of all rays of a bake, to light its scene again, or an edited one. N lumels, I instances.
-/// Independent of lamps, sky, colours and emission.
+/// Independent of lamps, sky, colours and emission; only guide, numbers of rays and passes follow
+/// the light of the bake.
 struct StoredLinks {
     /// Rays traced in one round of a bake.
     struct Round {
@@ -34,6 +39,19 @@ struct StoredLinks {
         }
     };
 
+    /// Shadow rays that a bake added where direct light varied most.
+    struct Pass {
+        std::uint32_t rounds = 0;          ///< rounds of links before it
+        ErrorOf aim = ErrorOf::all;        ///< the error that it lowered
+        std::vector<std::uint8_t> levels;  ///< [N] DirectEstimator::levels()
+
+        template <class Archive>
+        void state(Archive& archive)
+        {
+            archive(rounds, aim, levels);
+        }
+    };
+
     std::string scene_hash;                ///< Scene::hash of the baked scene
     std::uint32_t seed = 0;                ///< LinksOptions::seed
     std::uint8_t shared_directions = 0;    ///< not 0: all lumels draw from one set
@@ -43,8 +61,9 @@ struct StoredLinks {
     std::vector<Box> boxes;                ///< [I] bounds of the instances [m]
     RayGuide guide;                        ///< of the rounds after the first
     std::vector<Round> rounds;
-    std::vector<Box> gone;   ///< bounds of removed instances; never in a file
-    bool reordered = false;  ///< instances have other numbers than in the file
+    std::vector<Pass> passes;  ///< in the order of the bake
+    std::vector<Box> gone;     ///< bounds of removed instances; never in a file
+    bool reordered = false;    ///< instances have other numbers than in the file
 
     /// Unrounded texture coordinates; scene.glb has rounded ones.
     struct StoredTexcoords {

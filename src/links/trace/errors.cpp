@@ -56,12 +56,13 @@ void LinkRadiosity::estimate()
         if (light < kDark * mean_light_)
             add(dark, i, light);
     });
-    all_ = all.errors();
-    dark_ = dark.errors();
-    state_.error = std::sqrt(all_.rays + all_.direct);
-    eye_ = estimate_for_eye();
-    state_.dark_error = std::sqrt(dark_.rays + dark_.direct);
-    state_.eye_error = std::sqrt(eye_.rays + eye_.direct);
+    errors(ErrorOf::all) = all.errors();
+    errors(ErrorOf::dark) = dark.errors();
+    errors(ErrorOf::eye) = estimate_for_eye();
+    const auto root = [&](ErrorOf of) { return std::sqrt(errors(of).rays + errors(of).direct); };
+    state_.error = root(ErrorOf::all);
+    state_.dark_error = root(ErrorOf::dark);
+    state_.eye_error = root(ErrorOf::eye);
     find_visible_noise();
 }
 
@@ -83,10 +84,10 @@ void LinkRadiosity::find_visible_noise()
         means.push_back(&direct_mean_);
     noise_ = noise_of_charts(work_.scene, light, means, work_.ranks);
     state_.visible_noise = visible_noise(noise_);
-    visible_ = {};
+    errors(ErrorOf::chart) = {};
     if (!noise_.empty()) {
         const ChartNoise& worst = noise_[worst_that_counts(noise_)];
-        visible_ = errors_in(worst, worst.worst_band());
+        errors(ErrorOf::chart) = errors_in(worst, worst.worst_band());
     }
 }
 

@@ -115,8 +115,9 @@ void LinkRadiosity::step()
         const Stopwatch clock(times_["direct light"]);
         if (direct_->step())
             break;
-        if (state_.shots == 0) {
-            begin_round();
+        if (state_.shots == 0 || has_known_round()) {
+            if (!repeat_pass())
+                begin_round();
         } else {
             estimate();
             go_on();
@@ -147,7 +148,7 @@ void LinkRadiosity::state(Archive& archive)
     archive(*direct_, direct_mean_.light, direct_mean_.noise, direct_mean_.wrong,
             direct_mean_.apart, direct_mean_.bend, round_, mean_rays_, means_, rays_, guide_,
             traced_, mean_.light, mean_.noise, mean_.wrong, mean_.apart, mean_.bend, mean_light_,
-            adapted_, all_, dark_, eye_, refined_, state_, times_);
+            adapted_, errors_, refined_, passes_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k) {
         links_state(archive, *links_[k]);
         archive(sources_[k].rays, received_[k], swept_sky_[k]);
@@ -183,6 +184,9 @@ bool LinkRadiosity::is_consistent() const
     };
     const bool is_tracing = stage_ == Stage::links || stage_ == Stage::solve;
     const std::size_t traced = is_tracing ? traced_ : tracer_->blocks();
+    const auto is_of_lumels = [&](const StoredLinks::Pass& pass) {
+        return pass.levels.size() == lumels;
+    };
     bool fits = stage_ > Stage::begin && stage_ <= Stage::solve && direct_->fits() &&
                 is(rays_.size(), lumels) && is(direct_mean_.light.size(), lumels) &&
                 direct_mean_.noise.size() == direct_mean_.light.size() &&
@@ -194,6 +198,7 @@ bool LinkRadiosity::is_consistent() const
                 is(mean_.bend.size(), lumels) && is(adapted_.size(), lumels) &&
                 traced_ <= tracer_->blocks() && means_.size() == round_ && guide_.fits(lumels) &&
                 (state_.shots > 0) == !mean_.light.empty() &&
+                std::ranges::all_of(passes_, is_of_lumels) &&
                 (!is_tracing || (mean_rays_ > 0.0 && rays_.size() == lumels)) &&
                 (stage_ != Stage::solve || traced_ == tracer_->blocks());
     for (std::size_t k = 0; k < kSolutions; ++k)
@@ -349,7 +354,8 @@ void LinkRadiosity::end_round()
     means_.push_back(mean_rays_);
     ++round_;
     if (has_known_round()) {
-        begin_known_round();
+        if (!repeat_pass())
+            begin_known_round();
         return;
     }
     solve();

@@ -159,9 +159,10 @@ private:
     };
     struct Wanted {
         double error;  ///< target
+        ErrorOf of;
         Errors now;
-        bool is_visible = false;  ///< of visible noise on charts
 
+        bool is_visible() const { return of == ErrorOf::chart; }
         bool is_reached() const { return now.rays + now.direct <= error * error; }
     };
 
@@ -227,6 +228,8 @@ private:
     std::vector<Wanted> wanted() const;
     double share_of_direct(const Errors& now) const;
     bool refine_direct();
+    void add_pass(ErrorOf aim);
+    bool repeat_pass();
     double more_rays() const;
     double rays_that_fit() const;
     std::vector<double> weights() const;
@@ -250,6 +253,8 @@ private:
     double make_sum_exact(std::vector<LampLight>& lamps) const;
     void estimate();
     Errors estimate_for_eye();
+    Errors& errors(ErrorOf of) { return errors_[std::size_t(of)]; }
+    const Errors& errors(ErrorOf of) const { return errors_[std::size_t(of)]; }
 
     const LinksOptions options_;
     const double target_error_, target_dark_error_, target_eye_error_, target_visible_noise_;
@@ -290,9 +295,9 @@ private:
     std::size_t traced_ = 0;           ///< blocks of the round
     double mean_light_ = 0.0;          ///< summed over channels [lx]
     std::vector<double> adapted_;      ///< [N] adapted_light() of the present estimate
-    Errors all_, dark_, eye_;
-    std::vector<ChartNoise> noise_;  ///< in_order(), of the present estimate
-    Errors visible_;                 ///< of the worst chart that counts
+    std::array<Errors, 4> errors_{};   ///< by ErrorOf; of charts, the worst that counts
+    std::vector<ChartNoise> noise_;    ///< in_order(), of the present estimate
+    std::vector<StoredLinks::Pass> passes_;  ///< of direct light
     /// Squared error of direct light before its last pass in this round: of lumels, of charts; 0:
     /// none.
     std::array<double, 2> refined_{};

@@ -42,20 +42,22 @@ constexpr double kResidual = 1e-3, kResidualOfTarget = 0.05;
 std::vector<LinkRadiosity::Wanted> LinkRadiosity::wanted() const
 {
     std::vector<Wanted> result;
-    if (target_error_ > 0.0)
-        result.push_back({target_error_, all_});
-    if (target_dark_error_ > 0.0)
-        result.push_back({target_dark_error_, dark_});
-    if (target_eye_error_ > 0.0)
-        result.push_back({target_eye_error_, eye_});
-    if (target_visible_noise_ > 0.0)
-        result.push_back({target_visible_noise_, visible_, true});
+    const auto add = [&](double target, ErrorOf of) {
+        if (target > 0.0)
+            result.push_back({target, of, errors(of)});
+    };
+    add(target_error_, ErrorOf::all);
+    add(target_dark_error_, ErrorOf::dark);
+    add(target_eye_error_, ErrorOf::eye);
+    add(target_visible_noise_, ErrorOf::chart);
     return result;
 }
 
-/// Starts the next stage: refines direct light, or adds links.
+/// Starts the next stage: refines direct light, as a former bake did first, or adds links.
 void LinkRadiosity::go_on()
 {
+    if (repeat_pass())
+        return;
     const std::vector<Wanted> all = wanted();
     const bool reached = std::ranges::all_of(all, &Wanted::is_reached);
     const bool is_even = options_.even_rays > 0;
@@ -91,14 +93,15 @@ bool LinkRadiosity::refine_direct()
 {
     std::vector<Wanted> all = wanted();
     // Beside the rays, whatever is asked for: few lumels near a lamp can hold most of the noise.
-    all.push_back({std::sqrt(all_.rays), all_});
+    const Errors& whole = errors(ErrorOf::all);
+    all.push_back({std::sqrt(whole.rays), ErrorOf::all, whole});
     double share = 1.0;
     const Wanted* tightest = nullptr;
     for (const Wanted& one : all) {
         const double most =
             share_of_direct(one.now) * std::max(one.error * one.error, kNextRound * one.now.rays);
         const double left = std::max(most / one.now.direct, kMinDirect);
-        const double before = refined_[one.is_visible ? 1 : 0];
+        const double before = refined_[one.is_visible() ? 1 : 0];
         const bool helps = before == 0.0 || one.now.direct < kHelped * before;
         if (one.now.direct > kTooUncertain * most && left < share && helps) {
             share = left;
@@ -107,9 +110,8 @@ bool LinkRadiosity::refine_direct()
     }
     if (!tightest)
         return false;
-    refined_[tightest->is_visible ? 1 : 0] = tightest->now.direct;
     // By the variance that the filter leaves, as rays are allocated.
-    std::vector<double> weight = tightest->is_visible ? chart_weights() : weights();
+    std::vector<double> weight = tightest->is_visible() ? chart_weights() : weights();
     if (const ChartFilter* const by = filter()) {
         const Mean plain = plain_mean(direct_->half(0), direct_->half(1));
         const std::vector<double> left =
@@ -118,7 +120,33 @@ bool LinkRadiosity::refine_direct()
         for (std::size_t i = 0; i < weight.size(); ++i)
             weight[i] *= left[i];
     }
-    return direct_->refine(share, state_.shots * work_.order.size(), weight);
+    const bool refines = direct_->refine(share, state_.shots * work_.order.size(), weight);
+    if (refines)
+        add_pass(tightest->of);
+    return refines;
+}
+
+/// Keeps the pass of direct light that begins. aim: the error that it lowers.
+void LinkRadiosity::add_pass(ErrorOf aim)
+{
+    passes_.push_back({round_, aim, direct_->levels()});
+    refined_[aim == ErrorOf::chart ? 1 : 0] = errors(aim).direct;
+}
+
+/// Begins the next pass of a former bake that came before the present round.
+bool LinkRadiosity::repeat_pass()
+{
+    const std::size_t next = passes_.size();
+    if (!stored_ || next >= stored_->passes.size())
+        return false;
+    const StoredLinks::Pass& pass = stored_->passes[next];
+    const bool is_of_other_atlas = pass.levels.size() != work_.order.size();
+    if (is_of_other_atlas || pass.rounds > round_)
+        return false;
+    direct_->refine_to(pass.levels);
+    add_pass(pass.aim);
+    stage_ = Stage::direct;
+    return true;
 }
 
 /// Ends the solution as it is.
@@ -208,7 +236,7 @@ double LinkRadiosity::more_rays() const
         return std::min(so_far, double(kMaxLinks));
     double ratio = 0.0;
     for (const Wanted& one : all)
-        if (!one.is_visible && !one.is_reached()) {
+        if (!one.is_visible() && !one.is_reached()) {
             const double square = one.error * one.error;
             const double left = square - std::min(one.now.direct, kMaxShare * square);
             ratio = std::max(ratio, one.now.rays / left);

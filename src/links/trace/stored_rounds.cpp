@@ -28,6 +28,8 @@ void LinkRadiosity::relight()
     adapted_.clear();
     round_ = 0;
     means_.clear();
+    passes_.clear();
+    refined_ = {};
     guide_ = {};
     state_ = {};
     stage_ = Stage::direct;
@@ -50,6 +52,7 @@ void LinkRadiosity::begin_known_round()
         if (rays_[i] == 0 && (changes_.all || changes_.starts[i]))
             rays_[i] = std::uint16_t(std::lround(mean_rays_));
     first_rays_ = first_rays(round.rays);
+    refined_ = {};
     if (round_ == 0 && stored_->guide.fits(work_.order.size()))
         guide_ = stored_->guide;
     begin_links();
@@ -64,7 +67,8 @@ StoredLinks LinkRadiosity::kept(const std::string& hash) const
                      .lumels = lumel_hashes(work_.world, work_.scene.lumels),
                      .instances = instance_hashes(work_.scene.scene),
                      .boxes = instance_boxes(work_.scene.scene),
-                     .guide = guide_};
+                     .guide = guide_,
+                     .passes = passes_};
     for (std::size_t r = 0; r < means_.size(); ++r)
         kept.rounds.push_back(stored_round(r, kept.numbers()));
     keep_places(work_.scene.atlas, kept);

@@ -1,5 +1,6 @@
 // Light over links of a former run is that of links that were just traced.
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -79,6 +80,27 @@ StoredLinks guided_links(const SolveScene& scene)
         rounds += light.state().shots > shots ? 1 : 0;
     }
     return light.kept("hash");
+}
+
+/// RMS difference, as part of the mean light.
+double relative_difference(const Lights& one, const Lights& other)
+{
+    double square = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        const glm::dvec3 apart = one[i] - other[i];
+        square += glm::dot(apart, apart) / 3.0;
+        sum += double(other[i].r + other[i].g + other[i].b) / 3.0;
+    }
+    return std::sqrt(square * double(one.size())) / sum;
+}
+
+/// To a target error.
+void solve(LinkRadiosity& light, const SolveLimits& limits)
+{
+    do
+        light.step();
+    while (!light.state().ended && !(light.state().shots > 0 && light.state().error >= 0.0 &&
+                                     light.state().error <= limits.target_error));
 }
 
 /// Over all stored rounds.
@@ -268,6 +290,47 @@ TEST(KeptLight, OverGuidedLinksIsThatOfTracingThemAgain)
     EXPECT_EQ(different_links(over.kept("hash"), kept), 0u);
     EXPECT_EQ(different_links(anew.kept("hash"), kept), 0u);
     EXPECT_EQ(over.irradiance(), anew.irradiance());
+}
+
+/// Shadow rays by need are those of the bake, before each round and after the last.
+TEST(KeptLight, OverRefinedDirectLightIsThatOfTheBake)
+{
+    const SolveScene scene = two_rooms();
+    const SolveLimits limits{.target_error = 0.002};
+    LinkRadiosity bake(scene, {}, limits, Parts::direct);
+    solve(bake, limits);
+    const StoredLinks kept = through_a_file(bake.kept("hash"));
+    ASSERT_FALSE(kept.passes.empty());
+    LinkRadiosity over(scene, {}, limits, Parts::direct);
+    over.use(kept, LinkRadiosity::Then::end);
+    for (int state = 0; state < 2; ++state) {
+        solve(over, limits);
+        EXPECT_EQ(over.irradiance(), bake.irradiance()) << state;
+        EXPECT_EQ(over.kept("hash").passes.size(), kept.passes.size()) << state;
+        over.relight();
+    }
+}
+
+/// Sweeps that went on from round to round leave another residual than those begun anew.
+TEST(KeptLight, OfABakeByNeedIsItsLight)
+{
+    constexpr double kResidual = 1e-3;  // where sweeps stop
+    const SolveScene scene = two_rooms();
+    const SolveLimits limits{.target_error = 0.003};
+    LinkRadiosity bake(scene, {}, limits);
+    solve(bake, limits);
+    StoredLinks kept = through_a_file(bake.kept("hash"));
+    ASSERT_GT(kept.rounds.size(), 1u);
+    ASSERT_FALSE(kept.passes.empty());
+    const auto off = [&] {
+        LinkRadiosity over(scene, {}, limits);
+        over.use(kept, LinkRadiosity::Then::end);
+        solve(over, limits);
+        return relative_difference(over.irradiance(), bake.irradiance());
+    };
+    EXPECT_LT(off(), kResidual);
+    kept.passes.clear();
+    EXPECT_GT(off(), kResidual);
 }
 
 /// Its lumels are others than those that the guide was learnt for.
