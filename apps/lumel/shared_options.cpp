@@ -132,6 +132,10 @@ void add_light_options(Command& command, LightOptions& lights)
           "the sun that the sky depends on, which else is that of --sun",
           [&lights](const std::string& text) { set_sky(lights, text); }},
          {"--sky-scale", "F", "Scale factor for sky radiance", &lights.sky_scale, "1", positive()},
+         {"--ground", "RHO",
+          "Albedo of the ground below the horizon, which reflects sky and --sun as open ground "
+          "does, unless the sky is an image; often 0.2",
+          &lights.ground, "0", between(0.0, 1.0)},
          {"--sky-rotation", "DEGREES",
           "Rotate the sky and --sun about +y, counter-clockwise seen from above",
           [&lights](double degrees) { lights.sky_rotation = glm::radians(degrees); }, "0",

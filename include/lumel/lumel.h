@@ -241,6 +241,7 @@ struct Daylight {
     std::optional<Cie> cie;
     std::optional<Sun> sun;  ///< of a clear day
     float sky_scale = 1.0f;  ///< factor for the sky, not for the sun
+    float ground = 0.0f;     ///< albedo below the horizon, of skies that are no images: 0…1
     double rotation = 0.0;   ///< rotation of sky and sun about +y, counter-clockwise from above
 };
 

@@ -145,7 +145,8 @@ std::optional<lumel::Daylight::Sun> sun_of(const std::optional<Angles>& angles)
 void add_daylight(lumel::Scene& scene, const std::optional<Angles>& sun,
                   const std::optional<lumel::Vec3>& sky_luminance, const py::object& sky_file,
                   const std::optional<int>& cie, const std::optional<float>& cie_lux,
-                  const std::optional<Angles>& cie_sun, float sky_scale, double rotation)
+                  const std::optional<Angles>& cie_sun, float sky_scale, float ground,
+                  double rotation)
 {
     if (!cie && (cie_lux || cie_sun))
         throw py::value_error("cie_lux and cie_sun need cie, the type of the sky");
@@ -158,6 +159,7 @@ void add_daylight(lumel::Scene& scene, const std::optional<Angles>& sun,
                                          sun_of(cie_sun)};
     light.sun = sun_of(sun);
     light.sky_scale = sky_scale;
+    light.ground = ground;
     light.rotation = rotation;
     call([&] { scene.add_daylight(light); });
 }
@@ -204,7 +206,7 @@ void add_scene(py::module_& module)
              py::kw_only(), py::arg("sun") = py::none(), py::arg("sky_luminance") = py::none(),
              py::arg("sky_file") = py::none(), py::arg("cie") = py::none(),
              py::arg("cie_lux") = py::none(), py::arg("cie_sun") = py::none(),
-             py::arg("sky_scale") = 1.0f, py::arg("rotation") = 0.0)
+             py::arg("sky_scale") = 1.0f, py::arg("ground") = 0.0f, py::arg("rotation") = 0.0)
         .def_property_readonly("instances", &names_of_instances, "Names of visible instances.")
         .def_property_readonly("transforms", &transforms, "(n, 4, 4) of the instances.")
         .def_property_readonly(

@@ -95,10 +95,11 @@ class Scene:
         """Reads a glTF 2.0 file. "glossy": for method "glossy"."""
     def add_daylight(self, *, sun: Optional[_Angles] = None, sky_luminance: Optional[Vector] = None,
                      sky_file: Optional[_Path] = None, cie: Optional[int] = None, cie_lux: Optional[float] = None,
-                     cie_sun: Optional[_Angles] = None, sky_scale: float = 1.0, rotation: float = 0.0) -> None:
+                     cie_sun: Optional[_Angles] = None, sky_scale: float = 1.0, ground: float = 0.0,
+                     rotation: float = 0.0) -> None:
         """Replaces the sky, and adds the sun as a light. Suns: azimuth clockwise from north (-z), seen from above,
         and elevation. cie: type 1 to 16 of a standard sky, with cie_lux (10,000 by default) on an open horizontal
-        plane."""
+        plane. ground: albedo below the horizon."""
     @property
     def instances(self) -> list[str]:
         """Names of the visible ones."""

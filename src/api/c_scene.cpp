@@ -292,6 +292,7 @@ Daylight daylight_of(const lumel_daylight& from)
         daylight.sun = sun;
     if (from.sky_scale != 0.0f)
         daylight.sky_scale = from.sky_scale;
+    daylight.ground = from.ground;
     daylight.rotation = from.rotation;
     return daylight;
 }

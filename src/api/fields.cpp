@@ -19,6 +19,7 @@ const std::map<std::string, std::string, std::less<>> kFields = {
     {"device", "Device::Device"},
     {"directional", "BakeSettings::directional"},
     {"error", "BakeSettings::error"},
+    {"ground", "Daylight::ground"},
     {"group", "BakeSettings::groups"},
     {"gutter", "AtlasSettings::gutter"},
     {"max-memory", "BakeSettings::max_memory"},

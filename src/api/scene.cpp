@@ -48,7 +48,10 @@ LightOptions options_of(const Daylight& daylight)
         refuse("sky_scale must be a number of 0 or more");
     if (!std::isfinite(daylight.rotation))
         refuse("rotation must be a number");
+    if (!(daylight.ground >= 0.0f && daylight.ground <= 1.0f))
+        refuse("ground must lie between 0 and 1");
     options.sky_scale = daylight.sky_scale;
+    options.ground = daylight.ground;
     options.sky_rotation = daylight.rotation;
     return options;
 }

@@ -95,6 +95,7 @@ TEST(LumelC, ReadsFilesWithDaylight)
                                   .sun_azimuth = 2.0,
                                   .sun_elevation = 0.5,
                                   .sky_scale = 2.0f,
+                                  .ground = 0.2f,
                                   .rotation = 0.25};
     ASSERT_EQ(lumel_add_daylight(scene.get(), &daylight), LUMEL_OK) << lumel_message();
     const BakedPointer baked = baked_of(scene.get(), {.size = kSize, .shots = 12});
@@ -102,6 +103,7 @@ TEST(LumelC, ReadsFilesWithDaylight)
     same.add_daylight({.sky_luminance = Vec3{1.0f, 2.0f, 4.0f},
                        .sun = Daylight::Sun{.azimuth = 2.0, .elevation = 0.5},
                        .sky_scale = 2.0f,
+                       .ground = 0.2f,
                        .rotation = 0.25});
     const Baked wanted = bake(same, {.atlas = {.size = kSize}, .shots = 12});
     EXPECT_TRUE(

@@ -86,6 +86,7 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
         {{"info", scene, "--sky", "sky.png"}, {"--sky", "sky.png", ".exr"}},
         {{"info", scene, "--sun", "nan,20"}, {"--sun", "nan,20", "ELEVATION"}},
         {{"info", scene, "--sky-scale", "0"}, {"--sky-scale"}},
+        {{"info", scene, "--ground", "2"}, {"--ground"}},
         {{"info", scene, "--sky-rotation", "nan"}, {"--sky-rotation"}},
         {{"info", scene, "--sun", "noon"}, {"--sun", "noon", "ELEVATION"}},
         {{"info", scene, "--sun", "47,19,yesterday"}, {"yesterday", "UTC"}},

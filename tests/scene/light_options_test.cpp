@@ -125,6 +125,40 @@ TEST(LightOptions, SunAndSkyTurnTogether)
               3.0 * luminance(sky_radiance(scene.sky, {-to_sun.z, to_sun.y, 0.0f})));
 }
 
+/// Irradiance of an open plane that faces down.
+glm::dvec3 from_below(Sky sky)
+{
+    std::ranges::reverse(sky.radiance);
+    return sky_irradiance(sky);
+}
+
+TEST(LightOptions, TheGroundReflectsSkyAndSun)
+{
+    constexpr float kAlbedo = 0.25f;
+    constexpr double kElevation = glm::radians(30.0);
+    const auto lit = [](const LightOptions& options) {
+        Scene scene;
+        add_lights(scene, options);
+        return scene;
+    };
+    LightOptions overcast, clear, coloured, image;
+    set_sky(overcast, "overcast:8000");
+    set_sun(clear, "90,30");
+    set_sky(coloured, "1,2,4");
+    for (LightOptions* options : {&overcast, &clear, &coloured, &image})
+        options->ground = kAlbedo;
+    EXPECT_NEAR(luminance(from_below(lit(overcast).sky)), 2000.0, 2.0);
+    EXPECT_NEAR(luminance(sky_irradiance(lit(overcast).sky)), 8000.0, 8.0);
+    EXPECT_NEAR(luminance(from_below(lit(clear).sky)),
+                kAlbedo * (clear_sky_illuminance(kElevation) +
+                           sun_illuminance(kElevation) * std::sin(kElevation)),
+                10.0);
+    EXPECT_NEAR(from_below(lit(coloured).sky).b, kAlbedo * 4.0 * kPi, 0.02);
+    overcast.sky_scale = 0.5f;
+    EXPECT_NEAR(luminance(from_below(lit(overcast).sky)), 1000.0, 1.0);
+    EXPECT_TRUE(warns(lit(image), "--ground has no effect"));
+}
+
 TEST(LightOptions, ASunBelowTheHorizonGivesAWarning)
 {
     LightOptions options;

@@ -121,6 +121,8 @@ Json light_settings(const LightOptions& options)
         settings["sky"] = cie_settings(*options.cie);
     if (options.sky_scale != 1.0f)
         settings["sky-scale"] = shortest(options.sky_scale);
+    if (options.ground > 0.0f)
+        settings["ground"] = shortest(options.ground);
     if (options.sky_rotation != 0.0)
         settings["sky-rotation"] = degrees_of(options.sky_rotation);
     if (const auto& sun = options.sun)
@@ -152,6 +154,8 @@ LightOptions light_options_of(const JsonView& settings, const std::string& folde
     }
     if (const auto scale = settings.find("sky-scale"))
         options.sky_scale = float(scale->number(0.0, kMax));
+    if (const auto ground = settings.find("ground"))
+        options.ground = float(ground->number(0.0, 1.0));
     if (settings.find("sky-rotation"))
         options.sky_rotation = radians_in(settings, "sky-rotation", kMaxDegrees);
     if (const auto sun = settings.find("sun")) {

@@ -145,6 +145,17 @@ SunPosition placed_sun(const LightOptions& options)
     return sun;
 }
 
+/// Ground below the horizon, which reflects the light of an open sky and sun diffusely.
+void add_ground(Sky& sky, float albedo, const std::optional<SunPosition>& sun)
+{
+    glm::vec3 light(sky_irradiance(sky));
+    if (sun && sun->elevation > 0.0)
+        light += float(sun_illuminance(sun->elevation) * std::sin(sun->elevation));
+    const std::size_t above = sky.radiance.size() / 2;
+    std::fill(sky.radiance.begin() + std::ptrdiff_t(above), sky.radiance.end(),
+              albedo * light / glm::pi<float>());
+}
+
 /// Sets the requested sky, if any; rotates and scales it.
 void add_sky(Scene& scene, const LightOptions& options)
 {
@@ -166,6 +177,16 @@ void add_sky(Scene& scene, const LightOptions& options)
         warn_of_idle(scene, "--sky-scale", "there is no sky");
     for (glm::vec3& radiance : scene.sky.radiance)
         radiance *= options.sky_scale;
+    if (options.ground > 0.0f) {
+        const bool is_image =
+            !options.sky_file.empty() || !(options.sky_color || options.cie || options.sun);
+        if (is_image)
+            warn_of_idle(scene, "--ground",
+                         scene.sky.empty() ? "there is no sky"
+                                           : "the image of the sky has its own");
+        else
+            add_ground(scene.sky, options.ground, options.sun);
+    }
 }
 
 void add_sun(Scene& scene, const LightOptions& options)

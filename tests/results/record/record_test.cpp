@@ -34,6 +34,7 @@ BakeRecord unusual()
                       .files = {"lightmap.exr", "report.json"}};
     record.lights.sky_file = "/skies/noon.exr";
     record.lights.sky_scale = 0.1f;
+    record.lights.ground = 0.2f;
     record.lights.sky_rotation = glm::radians(30.0);
     record.lights.sun = SunPosition{glm::radians(10.0), glm::radians(35.0)};
     record.lights.sun_seen = {47.5, 19.04, "2024-06-21T12:00:00+02:00"};
@@ -107,6 +108,7 @@ TEST(BakeRecord, IsReadBackAsItWasWritten)
     }
     const BakeRecord same = read(json_of(unusual()));
     EXPECT_EQ(same.lights.sky_scale, 0.1f);
+    EXPECT_EQ(same.lights.ground, 0.2f);
     EXPECT_EQ(same.lights.sun->azimuth, glm::radians(10.0));
     EXPECT_EQ(same.lights.sun_angle, float(glm::radians(0.3)));
     EXPECT_EQ(same.atlas.texels_per_metre, 12.3f);
