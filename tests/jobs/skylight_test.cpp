@@ -16,13 +16,18 @@ namespace {
 constexpr float kWide = 6.0f, kHigh = 3.0f, kDeep = 4.0f, kHole = 1.0f;  // [m]
 constexpr float kSky = 1000.0f;                                          // [cd/m²]
 
+void add_black(Scene& scene, const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v)
+{
+    support::add_quad(scene,
+                      {.corner = corner, .edge_u = u, .edge_v = v, .albedo = glm::vec3(0.0f)});
+}
+
 Scene skylit_room()
 {
     Scene scene;
     scene.sky = support::even_sky(glm::vec3(kSky));
     const auto add = [&](const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
-        support::add_quad(scene,
-                          {.corner = corner, .edge_u = u, .edge_v = v, .albedo = glm::vec3(0.0f)});
+        add_black(scene, corner, u, v);
     };
     const glm::vec3 x(kWide, 0.0f, 0.0f), y(0.0f, kHigh, 0.0f), z(0.0f, 0.0f, kDeep), none(0.0f);
     add(none, z, x);
@@ -84,6 +89,59 @@ TEST(Skylight, IsCleanUpToTheFootOfTheWalls)
     }
     EXPECT_GT(count, 500);
     EXPECT_LT(std::sqrt(squares / count), 0.05);
+}
+
+/// A kerb across the floor, at an angle to the texels. Its side `n` faces the hole.
+struct Kerb {
+    static constexpr float kHeight = 0.2f, kLength = 2.5f, kThickness = 0.3f;  // [m]
+
+    glm::vec3 corner{0.8f, 0.0f, 0.8f};
+    glm::vec3 along = glm::normalize(glm::vec3(0.3f, 0.0f, 1.0f));
+    glm::vec3 n = glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), along);
+
+    void add_to(Scene& scene) const
+    {
+        const glm::vec3 u = kLength * along, v = -kThickness * n, up(0.0f, kHeight, 0.0f);
+        add_black(scene, corner, up, u);
+        add_black(scene, corner + v, u, up);
+        add_black(scene, corner, v, up);
+        add_black(scene, corner + u, up, v);
+        add_black(scene, corner + up, v, u);
+    }
+};
+
+/// Lumels that the kerb covers in part have their light from as few rays as others, and are
+/// filtered like these.
+TEST(Skylight, IsCleanWhereAKerbCoversPartsOfLumels)
+{
+    constexpr float kTexels = 10.0f;  // per metre
+    Scene scene = skylit_room();
+    const Kerb kerb;
+    kerb.add_to(scene);
+    const SolveScene world(std::move(scene), {.texels_per_metre = kTexels});
+    SolverOptions options;
+    options.method = support::method("links");
+    options.target_error = 0.0;
+    options.target_quality = kGood;
+    options.max_shots = 200;
+    const support::Solved solved = support::solve_scene(world, options);
+    double squares = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < world.lumels.lumels.size(); ++i) {
+        const Lumel& lumel = world.lumels.lumels[i];
+        const glm::vec3 from = lumel.position - kerb.corner;
+        const float aside = glm::dot(from, kerb.n), along = glm::dot(from, kerb.along);
+        const bool is_covered = lumel.area < 0.95f / (kTexels * kTexels);
+        if (lumel.normal.y < 0.5f || lumel.position.y > 0.0f || (lumel.flags & kLumelBuried) ||
+            !is_covered || std::abs(aside) > 1.0f / kTexels || along < 0.1f ||
+            along > Kerb::kLength - 0.1f)
+            continue;
+        const double off = double(solved.irradiance[i].g) / exact(lumel.position) - 1.0;
+        squares += off * off;
+        ++count;
+    }
+    EXPECT_GT(count, 20);
+    EXPECT_LT(std::sqrt(squares / count), 0.17);
 }
 
 }  // namespace

@@ -40,6 +40,17 @@ std::vector<float> smoothed(const FilterChart& chart, const std::vector<float>& 
     return result;
 }
 
+/// True if a point of a facet's plane lies in the facet.
+bool contains(const Facet& facet, const glm::vec3& normal, const glm::vec3& point)
+{
+    bool is_in = true;
+    for (int k = 0; k < facet.count; ++k) {
+        const glm::vec3 &from = facet.corner[k], &to = facet.corner[(k + 1) % facet.count];
+        is_in = is_in && glm::dot(glm::cross(to - from, point - from), normal) >= 0.0f;
+    }
+    return is_in;
+}
+
 /// True if all estimates agree at all lumels of the chart: nothing is to be filtered.
 template <std::size_t Count>
 bool is_known(const FilterChart& chart, const std::array<const Estimates*, Count>& found)
@@ -129,8 +140,22 @@ bool ChartFilter::may_step(std::size_t i, std::size_t j, float nearest) const
         return true;
     const float ray_offset =
         std::max(kLift * std::max(a.size, b.size), work_.scene.rays.ray_offset());
-    return work_.scene.rays.sees(a.centre + ray_offset * a.normal, b.centre + ray_offset * b.normal,
-                                 0.0f, std::uint32_t(i));
+    return work_.scene.rays.sees(open_middle(i) + ray_offset * a.normal,
+                                 open_middle(j) + ray_offset * b.normal, 0.0f, std::uint32_t(i));
+}
+
+/// The centre of a lumel or, if other geometry covers that, the nearest open cell.
+glm::vec3 ChartFilter::open_middle(std::size_t i) const
+{
+    const WorldLumel& lumel = work_.world[i];
+    const bool is_open =
+        std::any_of(work_.world.begin(lumel), work_.world.end(lumel), [&](const Facet& facet) {
+            return contains(facet, lumel.normal, lumel.centre);
+        });
+    if (is_open)
+        return lumel.centre;
+    const CellPoints points = cell_points(work_.world, work_.cells, i);
+    return points.point[points.nearest(lumel.centre)].position;
 }
 
 /// Calls visit(lumel, x, y) for the lumels of a chart that take part in the filter.

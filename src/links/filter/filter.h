@@ -51,6 +51,7 @@ public:
 private:
     std::uint8_t find_steps(std::size_t lumel, const std::vector<float>& nearest) const;
     bool may_step(std::size_t i, std::size_t j, float nearest) const;
+    glm::vec3 open_middle(std::size_t i) const;
     template <class Visit>
     void visit_lumels(const ChartPlace& place, const Visit& visit) const;
     FilterChart chart_at(const ChartPlace& place) const;
