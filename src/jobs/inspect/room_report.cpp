@@ -13,6 +13,7 @@
 #include "jobs/edit/finished_bake.h"
 #include "lights/light_sources.h"
 #include "results/measure/room_floor.h"
+#include "results/measure/room_space.h"
 #include "results/page/lamp_list.h"
 #include "results/page/whole_map.h"
 
@@ -132,6 +133,23 @@ AreaLimits limits_of(RoomArea area, const AreaLimits& task)
     return {};
 }
 
+/// The floor of a room, in coordinates of the file [m].
+struct FoundRoom {
+    RoomFloor floor;
+    bool is_known = false;  ///< else the floor is the lowest surface of the scene
+};
+
+/// Removes points that are apart from the space of the room. Returns how many.
+std::size_t remove_apart(const RoomSpace& space, const glm::dvec2& origin,
+                         std::vector<AreaPoints>& areas)
+{
+    std::size_t removed = 0;
+    for (AreaPoints& area : areas)
+        removed += std::erase_if(
+            area.points, [&](const AreaPoint& point) { return !space.has(point.at - origin); });
+    return removed;
+}
+
 /// Points in the open air with their cells, and the illuminance of each lamp at them.
 Json measured(const AreaPoints& area, const AreaLimits& task, double height, const RoomMeter& meter)
 {
@@ -166,15 +184,16 @@ FloorArea bounds_of(const SolveScene& scene)
 }
 
 /// The floor within bounds [m], or the lowest surface of the scene if none is found.
-RoomFloor floor_within(const SolveScene& scene, const FloorArea& bounds)
+FoundRoom room_within(const SolveScene& scene, const FloorArea& bounds)
 {
     const glm::dvec2 shift(scene.scene.origin.x, scene.scene.origin.z);
     std::optional<RoomFloor> found =
         floor_of_room(scene.rays, {bounds.low - shift, bounds.high - shift});
     if (!found)
-        return {scene.low_in_file().y, bounds};
-    return {found->height + scene.scene.origin.y,
-            {found->area.low + shift, found->area.high + shift}};
+        return {{scene.low_in_file().y, bounds}};
+    return {
+        {found->height + scene.scene.origin.y, {found->area.low + shift, found->area.high + shift}},
+        true};
 }
 
 void check_height(double height, const SolveScene& scene)
@@ -241,14 +260,25 @@ Json room_data(const std::string& folder, const RoomOptions& options)
     const SolveScene& scene = bake.prepared;
     if (options.height)
         check_height(*options.height, scene);
-    const RoomFloor floor =
-        floor_within(scene, options.bounds ? area_of(*options.bounds) : bounds_of(scene));
-    const FloorArea room = options.bounds ? area_of(*options.bounds) : floor.area;
+    const FoundRoom found =
+        room_within(scene, options.bounds ? area_of(*options.bounds) : bounds_of(scene));
+    const FloorArea room = options.bounds ? area_of(*options.bounds) : found.floor.area;
     std::optional<FloorArea> task;
     if (options.task)
         task = area_of(*options.task);
-    const std::vector<AreaPoints> areas = points_in_areas(room, task ? &*task : nullptr);
-    const double height = options.height.value_or(floor.height + use.height);
+    std::vector<AreaPoints> areas = points_in_areas(room, task ? &*task : nullptr);
+    const double height = options.height.value_or(found.floor.height + use.height);
+    std::size_t apart = 0;
+    if (found.is_known || options.bounds) {
+        const glm::dvec3 origin(scene.scene.origin);
+        const glm::dvec2 shift(origin.x, origin.z);
+        const auto in_rays = [&](const FloorArea& area) {
+            return FloorArea{area.low - shift, area.high - shift};
+        };
+        const RoomSpace space(scene.rays, in_rays(room), in_rays(task.value_or(room)),
+                              height - origin.y);
+        apart = remove_apart(space, shift, areas);
+    }
     const AreaLimits limits{options.illuminance.value_or(use.illuminance),
                             options.uniformity.value_or(use.uniformity)};
     const RoomMeter meter(folder, bake, options.samples);
@@ -262,6 +292,7 @@ Json room_data(const std::string& folder, const RoomOptions& options)
             {"maintenance", options.maintenance},
             {"height", height},
             {"room", {room.low.x, room.low.y, room.high.x, room.high.y}},
+            {"apart", apart},
             {"has_daylight", has_daylight(scene)},
             {"areas", std::move(measured_areas)}};
 }
@@ -275,6 +306,8 @@ std::string room_text(const Json& room)
                     bounds[2].get<double>(), bounds[3].get<double>());
     for (const Json& area : room["areas"])
         text += line_of(area, room["maintenance"].get<double>());
+    if (const auto apart = room["apart"].get<std::size_t>(); apart > 0)
+        text += fmt::format("{} points behind walls or inside things are left out\n", apart);
     if (room["has_daylight"].get<bool>())
         text += "the light of sky and sun is counted like that of lamps\n";
     return text;
