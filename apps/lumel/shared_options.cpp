@@ -133,9 +133,9 @@ void add_light_options(Command& command, LightOptions& lights)
           [&lights](const std::string& text) { set_sky(lights, text); }},
          {"--sky-scale", "F", "Scale factor for sky radiance", &lights.sky_scale, "1", positive()},
          {"--ground", "RHO",
-          "Albedo of the ground below the horizon, which reflects sky and --sun as open ground "
-          "does, unless the sky is an image; often 0.2",
-          &lights.ground, "0", between(0.0, 1.0)},
+          "Albedo of the ground below the horizon, lit by sky and --sun; not for images of skies; "
+          "usually 0.2",
+          &lights.ground, "none", between(0.0, 1.0)},
          {"--sky-rotation", "DEGREES",
           "Rotate the sky and --sun about +y, counter-clockwise seen from above",
           [&lights](double degrees) { lights.sky_rotation = glm::radians(degrees); }, "0",

@@ -241,7 +241,7 @@ struct Daylight {
     std::optional<Cie> cie;
     std::optional<Sun> sun;  ///< of a clear day
     float sky_scale = 1.0f;  ///< factor for the sky, not for the sun
-    float ground = 0.0f;     ///< albedo below the horizon, of skies that are no images: 0…1
+    float ground = 0.0f;     ///< albedo below the horizon, 0…1; 0: none; ignored for sky images
     double rotation = 0.0;   ///< rotation of sky and sun about +y, counter-clockwise from above
 };
 

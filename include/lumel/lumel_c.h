@@ -143,8 +143,8 @@ typedef struct lumel_daylight {
     double sun_azimuth;         /* clockwise from north (-z), seen from above */
     double sun_elevation;       /* above the horizon */
     float sky_scale;            /* factor for the sky; 0: 1 */
-    float ground;               /* albedo below the horizon, of skies that are no images: 0…1 */
     double rotation;            /* of both about +y, counter-clockwise from above */
+    float ground; /* albedo below the horizon, 0…1; 0: none; ignored for sky images */
 } lumel_daylight;
 LUMEL_C_API lumel_result lumel_add_daylight(lumel_scene* scene, const lumel_daylight* daylight);
 

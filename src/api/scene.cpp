@@ -21,9 +21,10 @@ void refuse(const std::string& what)
 
 SunPosition checked(const Daylight::Sun& sun)
 {
-    if (!std::isfinite(sun.azimuth) || !(std::abs(sun.elevation) <= std::numbers::pi / 2.0))
-        refuse("the elevation of the sun must lie between -pi/2 and pi/2, its azimuth must be a "
-               "number");
+    if (!(std::abs(sun.azimuth) <= 2.0 * std::numbers::pi) ||
+        !(std::abs(sun.elevation) <= std::numbers::pi / 2.0))
+        refuse("the elevation of the sun must lie between -pi/2 and pi/2, its azimuth between "
+               "-2 pi and 2 pi");
     return {sun.azimuth, sun.elevation};
 }
 

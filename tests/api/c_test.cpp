@@ -95,8 +95,8 @@ TEST(LumelC, ReadsFilesWithDaylight)
                                   .sun_azimuth = 2.0,
                                   .sun_elevation = 0.5,
                                   .sky_scale = 2.0f,
-                                  .ground = 0.2f,
-                                  .rotation = 0.25};
+                                  .rotation = 0.25,
+                                  .ground = 0.2f};
     ASSERT_EQ(lumel_add_daylight(scene.get(), &daylight), LUMEL_OK) << lumel_message();
     const BakedPointer baked = baked_of(scene.get(), {.size = kSize, .shots = 12});
     Scene same = Scene::load(scene_path("cornell-box"));

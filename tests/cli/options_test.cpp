@@ -81,6 +81,7 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
         {{"info", scene, "--sky", "absent.hdr"}, {"absent.hdr", "no such file"}},
         {{"info", scene, "--sky", "1,2"}, {"--sky", "1,2"}},
         {{"info", scene, "--sun", "400,20"}, {"--sun", "azimuth", "360"}},
+        {{"info", scene, "--sky", "cie:12@400,20"}, {"--sky", "cie:12@400,20"}},
         {{"info", scene, "--sky", "nan"}, {"--sky", "nan", "R,G,B", "overcast"}},
         {{"info", scene, "--sky", "1e400,1,1"}, {"--sky", "1e400,1,1", "R,G,B"}},
         {{"info", scene, "--sky", "sky.png"}, {"--sky", "sky.png", ".exr"}},

@@ -155,6 +155,8 @@ void read_year(const FinishedBake& bake, const LightMeter& meter, const Weather&
                     .target = options.target,
                     .figures = figures_of(readings)};
     summary.notes.push_back(weather_summary(weather, daylight.year, options.occupied));
+    if (bake.record.lights.ground > 0.0f)
+        summary.notes.emplace_back("--ground does not count over the year");
     for (std::string& note : weather_faults(weather))
         summary.notes.push_back(std::move(note));
 }

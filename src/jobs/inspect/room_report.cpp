@@ -140,13 +140,13 @@ struct FoundRoom {
 };
 
 /// Removes points that are apart from the space of the room. Returns how many.
-std::size_t remove_apart(const RoomSpace& space, const glm::dvec2& origin,
+std::size_t remove_apart(const RoomSpace& space, const glm::dvec2& shift,
                          std::vector<AreaPoints>& areas)
 {
     std::size_t removed = 0;
     for (AreaPoints& area : areas)
         removed += std::erase_if(
-            area.points, [&](const AreaPoint& point) { return !space.has(point.at - origin); });
+            area.points, [&](const AreaPoint& point) { return !space.has(point.at - shift); });
     return removed;
 }
 
@@ -275,8 +275,8 @@ Json room_data(const std::string& folder, const RoomOptions& options)
         const auto in_rays = [&](const FloorArea& area) {
             return FloorArea{area.low - shift, area.high - shift};
         };
-        const RoomSpace space(scene.rays, in_rays(room), in_rays(task.value_or(room)),
-                              height - origin.y);
+        const RoomSpace space(scene.rays, in_rays(room), height - origin.y,
+                              task ? std::optional(in_rays(*task)) : std::nullopt);
         apart = remove_apart(space, shift, areas);
     }
     const AreaLimits limits{options.illuminance.value_or(use.illuminance),
@@ -287,7 +287,9 @@ Json room_data(const std::string& folder, const RoomOptions& options)
         measured_areas.push_back(measured(area, limits, height, meter));
     if (measured_areas.front()["places"].empty())
         throw Error(ErrorKind::input, "--en12464",
-                    "finds no point of the task area in the open air; use --plane and --bounds");
+                    "finds no point of the task area in the open air of the room; use --plane, "
+                    "--bounds and "
+                    "--task");
     return {{"title", use.title},
             {"maintenance", options.maintenance},
             {"height", height},
@@ -307,7 +309,7 @@ std::string room_text(const Json& room)
     for (const Json& area : room["areas"])
         text += line_of(area, room["maintenance"].get<double>());
     if (const auto apart = room["apart"].get<std::size_t>(); apart > 0)
-        text += fmt::format("{} points behind walls or inside things are left out\n", apart);
+        text += fmt::format("left out, apart from the room: {}\n", apart);
     if (room["has_daylight"].get<bool>())
         text += "the light of sky and sun is counted like that of lamps\n";
     return text;

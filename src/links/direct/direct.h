@@ -40,11 +40,10 @@ public:
     /// variance, with at most `most` rays per source in total. weight [N]: of each lumel's squared
     /// error. Returns false if such a pass would gain less than 10 %.
     bool refine(double share, std::uint64_t most, const std::vector<double>& weight);
-    /// [N] After refine(): 0 for lumels that this pass leaves as they are, else 1 + log2 of their
-    /// rays after it, in units of the fewest; at most kMaxLevel.
+    /// [N] Of the scheduled pass: 0 for lumels without new rays, else 1 + log2(rays after it /
+    /// kManyRays), at most kMaxLevel.
     std::vector<std::uint8_t> levels() const;
-    /// Schedules a pass of another estimator, by its levels(). Returns false if no lumel gains
-    /// rays.
+    /// Schedules a pass by its levels() in a former bake. Returns false if no lumel gains rays.
     bool refine_to(const std::vector<std::uint8_t>& levels);
     static constexpr std::uint8_t kMaxLevel = 14;  ///< of kMaxShadowRays
 

@@ -137,11 +137,7 @@ bool is_sound(const StoredLinks::Round& round, const StoredLinks& kept)
 bool are_sound(const std::vector<StoredLinks::Pass>& passes, const StoredLinks& kept)
 {
     const auto is_one = [&](const StoredLinks::Pass& pass) {
-        return pass.aim <= ErrorOf::chart && pass.rounds <= kept.rounds.size() &&
-               pass.levels.size() == kept.lumels.size() &&
-               std::ranges::all_of(pass.levels, [](std::uint8_t level) {
-                   return level <= DirectEstimator::kMaxLevel;
-               });
+        return pass.fits(kept.lumels.size(), kept.rounds.size());
     };
     return std::ranges::all_of(passes, is_one) &&
            std::ranges::is_sorted(passes, {}, &StoredLinks::Pass::rounds);

@@ -1,8 +1,10 @@
 #include "links/kept/stored_links.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/core/error.h"
+#include "links/direct/direct.h"
 
 namespace lumel {
 namespace {
@@ -62,7 +64,8 @@ StoredLinks::Round renumbered(const StoredLinks::Round& round, const Renumbering
 
 StoredLinks::Pass renumbered(const StoredLinks::Pass& pass, const Renumbering& now)
 {
-    StoredLinks::Pass result{pass.rounds, pass.aim, std::vector<std::uint8_t>(now.lumels_now, 0)};
+    StoredLinks::Pass result{pass.rounds, pass.aim, pass.before,
+                             std::vector<std::uint8_t>(now.lumels_now, 0)};
     for (std::size_t i = 0; i < now.lumels.size(); ++i)
         if (now.lumels[i] != Renumbering::kNotThere)
             result.levels[now.lumels[i]] = pass.levels[i];
@@ -70,6 +73,13 @@ StoredLinks::Pass renumbered(const StoredLinks::Pass& pass, const Renumbering& n
 }
 
 }  // namespace
+
+bool StoredLinks::Pass::fits(std::size_t lumels, std::size_t most) const
+{
+    return aim <= ErrorOf::chart && rounds <= most && levels.size() == lumels &&
+           std::ranges::all_of(
+               levels, [](std::uint8_t level) { return level <= DirectEstimator::kMaxLevel; });
+}
 
 std::uint64_t StoredLinks::shots() const
 {

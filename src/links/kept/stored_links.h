@@ -43,12 +43,15 @@ struct StoredLinks {
     struct Pass {
         std::uint32_t rounds = 0;          ///< rounds of links before it
         ErrorOf aim = ErrorOf::all;        ///< the error that it lowered
+        double before = 0.0;               ///< that error by direct light, squared, before the pass
         std::vector<std::uint8_t> levels;  ///< [N] DirectEstimator::levels()
 
+        /// True for a pass of N lumels after at most `most` rounds.
+        bool fits(std::size_t lumels, std::size_t most) const;
         template <class Archive>
         void state(Archive& archive)
         {
-            archive(rounds, aim, levels);
+            archive(rounds, aim, before, levels);
         }
     };
 

@@ -184,9 +184,7 @@ bool LinkRadiosity::is_consistent() const
     };
     const bool is_tracing = stage_ == Stage::links || stage_ == Stage::solve;
     const std::size_t traced = is_tracing ? traced_ : tracer_->blocks();
-    const auto is_of_lumels = [&](const StoredLinks::Pass& pass) {
-        return pass.levels.size() == lumels;
-    };
+    const auto is_sound = [&](const StoredLinks::Pass& pass) { return pass.fits(lumels, round_); };
     bool fits = stage_ > Stage::begin && stage_ <= Stage::solve && direct_->fits() &&
                 is(rays_.size(), lumels) && is(direct_mean_.light.size(), lumels) &&
                 direct_mean_.noise.size() == direct_mean_.light.size() &&
@@ -198,7 +196,7 @@ bool LinkRadiosity::is_consistent() const
                 is(mean_.bend.size(), lumels) && is(adapted_.size(), lumels) &&
                 traced_ <= tracer_->blocks() && means_.size() == round_ && guide_.fits(lumels) &&
                 (state_.shots > 0) == !mean_.light.empty() &&
-                std::ranges::all_of(passes_, is_of_lumels) &&
+                std::ranges::all_of(passes_, is_sound) &&
                 (!is_tracing || (mean_rays_ > 0.0 && rays_.size() == lumels)) &&
                 (stage_ != Stage::solve || traced_ == tracer_->blocks());
     for (std::size_t k = 0; k < kSolutions; ++k)

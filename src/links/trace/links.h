@@ -228,7 +228,7 @@ private:
     std::vector<Wanted> wanted() const;
     double share_of_direct(const Errors& now) const;
     bool refine_direct();
-    void add_pass(ErrorOf aim);
+    void add_pass(ErrorOf aim, double before);
     bool repeat_pass();
     double more_rays() const;
     double rays_that_fit() const;

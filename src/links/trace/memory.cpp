@@ -68,8 +68,9 @@ std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, 
                           kOfNoise = sizeof(std::uint32_t);
     const std::size_t of_parts =
         kSolutions * (kOfSources + sizeof(glm::vec3)) + kOfGroups + sizeof(glm::vec3);
+    constexpr std::size_t kPasses = 8;  // of direct light, a byte each
     const std::size_t of_lumels =
-        sizeof(WorldLumel) + kOfOrder + kOfNoise + 2 * kOfMean + sizeof(std::uint16_t);
+        sizeof(WorldLumel) + kOfOrder + kOfNoise + 2 * kOfMean + sizeof(std::uint16_t) + kPasses;
     const auto varying = std::size_t(kVarying * double(lumels)),
                by_lamp = std::size_t(kVaryingByLamp * double(lumels));
     return lumels * (of_lumels + of_parts) + pieces * (sizeof(Piece) + sizeof(Facet)) +

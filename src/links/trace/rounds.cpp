@@ -27,6 +27,8 @@ constexpr double kOfLimit = 0.3;
 constexpr double kTooUncertain = 1.25, kMinDirect = 1.0 / 16.0;
 /// A pass helped if its variance is below this multiple of that before.
 constexpr double kHelped = 0.9;
+/// The light is that of the bake if errors before a pass differ by at most this: sweeps leave less.
+constexpr double kSameLight = 0.01;
 /// Cost of a link relative to a shadow ray, sweeps and filter included.
 constexpr double kCostOfLink = 1.5;
 /// Variance of rays after a round that adds kMaxAdded, relative to that before.
@@ -53,7 +55,7 @@ std::vector<LinkRadiosity::Wanted> LinkRadiosity::wanted() const
     return result;
 }
 
-/// Starts the next stage: refines direct light, as a former bake did first, or adds links.
+/// Starts the next stage: repeats a stored pass, refines direct light, or adds links.
 void LinkRadiosity::go_on()
 {
     if (repeat_pass())
@@ -122,15 +124,15 @@ bool LinkRadiosity::refine_direct()
     }
     const bool refines = direct_->refine(share, state_.shots * work_.order.size(), weight);
     if (refines)
-        add_pass(tightest->of);
+        add_pass(tightest->of, tightest->now.direct);
     return refines;
 }
 
-/// Keeps the pass of direct light that begins. aim: the error that it lowers.
-void LinkRadiosity::add_pass(ErrorOf aim)
+/// Keeps the pass of direct light that begins. aim: the error that it lowers; before: its square.
+void LinkRadiosity::add_pass(ErrorOf aim, double before)
 {
-    passes_.push_back({round_, aim, direct_->levels()});
-    refined_[aim == ErrorOf::chart ? 1 : 0] = errors(aim).direct;
+    passes_.push_back({round_, aim, before, direct_->levels()});
+    refined_[aim == ErrorOf::chart ? 1 : 0] = before;
 }
 
 /// Begins the next pass of a former bake that came before the present round.
@@ -143,8 +145,13 @@ bool LinkRadiosity::repeat_pass()
     const bool is_of_other_atlas = pass.levels.size() != work_.order.size();
     if (is_of_other_atlas || pass.rounds > round_)
         return false;
+    const bool is_same_light =
+        std::abs(errors(pass.aim).direct - pass.before) <= kSameLight * pass.before;
     direct_->refine_to(pass.levels);
-    add_pass(pass.aim);
+    add_pass(pass.aim, pass.before);
+    // Whether a pass helped under the light of the bake says nothing about another.
+    if (!is_same_light)
+        refined_ = {};
     stage_ = Stage::direct;
     return true;
 }

@@ -1,71 +1,113 @@
 #include "results/measure/room_space.h"
 
 #include <algorithm>
-#include <utility>
-#include <vector>
+#include <limits>
 
 namespace lumel {
+namespace {
 
-RoomSpace::RoomSpace(const RayScene& rays, const FloorArea& area, const FloorArea& core,
-                     double height)
-    : area_(area),
+/// To the four neighbours of a cell.
+constexpr std::array<std::array<int, 2>, 4> kAside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+}  // namespace
+
+RoomSpace::RoomSpace(const RayScene& rays, const FloorArea& area, double height,
+                     const std::optional<FloorArea>& task)
+    : rays_(rays),
+      area_(area),
       height_(height)
 {
-    std::size_t most = 0;
+    int number = 0;
+    std::ptrdiff_t most = 0;
     for (int z = 0; z < kSide; ++z)
-        for (int x = 0; x < kSide; ++x)
-            if (part_[index(x, z)] == 0) {
-                const std::size_t cells = fill(rays, core, x, z);
-                if (cells > most) {
-                    most = cells;
-                    chosen_ = parts_;
-                }
+        for (int x = 0; x < kSide; ++x) {
+            if (part({x, z}) != 0)
+                continue;
+            const std::vector<Cell> cells = fill({x, z}, ++number);
+            const std::ptrdiff_t count = std::ranges::count_if(cells, [&](const Cell& cell) {
+                return task ? is_in(cell, *task) : is_enclosed(cell);
+            });
+            if (count > most) {
+                most = count;
+                chosen_ = number;
             }
+        }
 }
 
-glm::vec3 RoomSpace::middle(int x, int z) const
+bool RoomSpace::exists(const Cell& cell)
 {
-    const glm::dvec2 at =
-        area_.low + (area_.high - area_.low) * (glm::dvec2(x, z) + 0.5) / double(kSide);
+    return cell.x >= 0 && cell.z >= 0 && cell.x < kSide && cell.z < kSide;
+}
+
+glm::dvec2 RoomSpace::corner(int x, int z) const
+{
+    return area_.low + (area_.high - area_.low) * glm::dvec2(x, z) / double(kSide);
+}
+
+glm::vec3 RoomSpace::middle(const Cell& cell) const
+{
+    const glm::dvec2 at = 0.5 * (corner(cell.x, cell.z) + corner(cell.x + 1, cell.z + 1));
     return {at.x, height_, at.y};
 }
 
-/// Numbers the cells that join a cell. Returns how many of them are in `core`.
-std::size_t RoomSpace::fill(const RayScene& rays, const FloorArea& core, int first_x, int first_z)
+bool RoomSpace::is_free(const glm::vec3& from, const glm::vec3& to) const
 {
-    const int number = ++parts_;
-    std::vector<std::pair<int, int>> cells = {{first_x, first_z}};
-    part_[index(first_x, first_z)] = number;
+    const glm::vec3 way = to - from;
+    const float length = glm::length(way);
+    RayHit hit;
+    return !(length > 0.0f) || !rays_.closest(from, way / length, 0.0f, length, 0, hit);
+}
+
+bool RoomSpace::is_in(const Cell& cell, const FloorArea& task) const
+{
+    const glm::dvec2 low = corner(cell.x, cell.z), high = corner(cell.x + 1, cell.z + 1);
+    return high.x >= task.low.x && high.y >= task.low.y && low.x <= task.high.x &&
+           low.y <= task.high.y;
+}
+
+/// True if fronts stand on at least three sides of a cell: not outdoors, nor inside of a solid.
+bool RoomSpace::is_enclosed(const Cell& cell) const
+{
+    constexpr int kLeastFronts = 3;
+    const float far = std::numeric_limits<float>::max();
+    int fronts = 0;
+    for (const auto& [dx, dz] : kAside) {
+        RayHit hit;
+        fronts += rays_.closest(middle(cell), {dx, 0, dz}, 0.0f, far, 0, hit) && hit.front ? 1 : 0;
+    }
+    return fronts >= kLeastFronts;
+}
+
+/// Numbers the cells that join a cell, and returns them.
+std::vector<RoomSpace::Cell> RoomSpace::fill(const Cell& first, int number)
+{
+    std::vector<Cell> cells = {first};
+    part(first) = number;
     for (std::size_t n = 0; n < cells.size(); ++n) {
-        const auto [x, z] = cells[n];
-        for (const auto& [dx, dz] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-            const int to_x = x + dx, to_z = z + dz;
-            if (to_x < 0 || to_z < 0 || to_x >= kSide || to_z >= kSide ||
-                part_[index(to_x, to_z)] != 0)
+        const Cell from = cells[n];
+        for (const auto& [dx, dz] : kAside) {
+            const Cell to{from.x + dx, from.z + dz};
+            if (!exists(to) || part(to) != 0 || !is_free(middle(from), middle(to)))
                 continue;
-            const glm::vec3 from = middle(x, z), way = middle(to_x, to_z) - from;
-            const float length = glm::length(way);
-            RayHit hit;
-            if (length > 0.0f && rays.closest(from, way / length, 0.0f, length, 0, hit))
-                continue;
-            part_[index(to_x, to_z)] = number;
-            cells.emplace_back(to_x, to_z);
+            part(to) = number;
+            cells.push_back(to);
         }
     }
-    return std::size_t(std::ranges::count_if(cells, [&](const std::pair<int, int>& cell) {
-        const glm::vec3 at = middle(cell.first, cell.second);
-        return at.x >= float(core.low.x) && at.x <= float(core.high.x) &&
-               at.z >= float(core.low.y) && at.z <= float(core.high.y);
-    }));
+    return cells;
 }
 
 bool RoomSpace::has(const glm::dvec2& at) const
 {
-    const glm::dvec2 cell = double(kSide) * (at - area_.low) / (area_.high - area_.low);
-    const glm::ivec2 own(glm::floor(cell));
-    for (int z = std::max(own.y - 1, 0); z <= std::min(own.y + 1, kSide - 1); ++z)
-        for (int x = std::max(own.x - 1, 0); x <= std::min(own.x + 1, kSide - 1); ++x)
-            if (part_[index(x, z)] == chosen_)
+    if (chosen_ == 0)
+        return true;
+    const glm::dvec2 place = double(kSide) * (at - area_.low) / (area_.high - area_.low);
+    const glm::ivec2 own(glm::floor(place));
+    const glm::vec3 point(at.x, height_, at.y);
+    // The middle of the own cell can be inside of a thing.
+    for (int z = own.y - 1; z <= own.y + 1; ++z)
+        for (int x = own.x - 1; x <= own.x + 1; ++x)
+            if (const Cell cell{x, z};
+                exists(cell) && part(cell) == chosen_ && is_free(point, middle(cell)))
                 return true;
     return false;
 }

@@ -47,6 +47,7 @@ Sky even_sky(const glm::vec3& radiance)
 }
 
 constexpr std::string_view kOvercast = "overcast", kCie = "cie:";  ///< arguments of --sky
+constexpr double kMaxAzimuth = 360.0;                              ///< [degrees], either way round
 /// Maximum illuminance of a sky [lx]: an open plane under uniform kMaxLuminance.
 constexpr double kMaxLux = glm::pi<double>() * double(kMaxLuminance);
 
@@ -75,9 +76,12 @@ CieSky overcast_of(const std::string& text)
 std::optional<SunPosition> sun_of_sky(const std::string& text)
 {
     const std::vector<std::string> parts = split(text);
-    const auto azimuth = number_of(parts[0]);
-    const auto elevation = parts.size() == 2 ? number_of(parts[1]) : std::nullopt;
-    if (!azimuth || !elevation || !(*elevation >= 0.0 && *elevation <= 90.0))
+    if (parts.size() != 2)
+        return std::nullopt;
+    const auto azimuth = number_of(parts[0]), elevation = number_of(parts[1]);
+    if (!azimuth || !elevation)
+        return std::nullopt;
+    if (std::abs(*azimuth) > kMaxAzimuth || !(*elevation >= 0.0 && *elevation <= 90.0))
         return std::nullopt;
     return SunPosition{glm::radians(*azimuth), glm::radians(*elevation)};
 }
@@ -355,7 +359,6 @@ void set_sky(LightOptions& options, const std::string& text)
 
 void set_sun(LightOptions& options, const std::string& text)
 {
-    constexpr double kMostAzimuth = 360.0;  // [degrees], either way round
     const std::vector<std::string> parts = split(text);
     const auto first = number_of(parts[0]);
     const auto second = parts.size() > 1 ? number_of(parts[1]) : std::nullopt;
@@ -364,7 +367,7 @@ void set_sun(LightOptions& options, const std::string& text)
                             " is neither AZIMUTH,ELEVATION in degrees nor LATITUDE,LONGITUDE,"
                             "DATETIME such as 47.5,19.0,2024-06-21T12:00:00Z");
     if (parts.size() == 2) {
-        if (std::abs(*first) > kMostAzimuth)
+        if (std::abs(*first) > kMaxAzimuth)
             refuse("--sun", "the azimuth must lie between -360 and 360 degrees");
         if (std::abs(*second) > 90.0)
             refuse("--sun", "the elevation must lie between -90 and 90 degrees");

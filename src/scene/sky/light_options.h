@@ -30,9 +30,9 @@ struct LightOptions {
     std::optional<SunPosition> sun;      ///< sun of a clear day; also sets the sky if none is given
     std::optional<SunSighting> sun_seen;  ///< source of `sun`, for the record only
     float sky_scale = 1.0f;               ///< factor for the sky, not for the sun
-    float ground = 0.0f;                  ///< albedo below the horizon of a sky without a file
-    double sky_rotation = 0.0;            ///< about +y, counter-clockwise from above [rad]
-    float light_radius = 0.0f;            ///< [m] for point and spot lights without one
+    float ground = 0.0f;             ///< albedo below the horizon of a sky without a file; 0: none
+    double sky_rotation = 0.0;       ///< about +y, counter-clockwise from above [rad]
+    float light_radius = 0.0f;       ///< [m] for point and spot lights without one
     std::optional<float> sun_angle;  ///< [rad] for `sun`, and for directional lights without one
     std::vector<LightProfile> profiles;
     float max_albedo = kMaxAlbedo;  ///< see cap_albedo()

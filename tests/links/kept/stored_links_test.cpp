@@ -292,7 +292,7 @@ TEST(KeptLight, OverGuidedLinksIsThatOfTracingThemAgain)
     EXPECT_EQ(over.irradiance(), anew.irradiance());
 }
 
-/// Shadow rays by need are those of the bake, before each round and after the last.
+/// Shadow rays by need are those of the bake.
 TEST(KeptLight, OverRefinedDirectLightIsThatOfTheBake)
 {
     const SolveScene scene = two_rooms();
@@ -322,6 +322,7 @@ TEST(KeptLight, OfABakeByNeedIsItsLight)
     StoredLinks kept = through_a_file(bake.kept("hash"));
     ASSERT_GT(kept.rounds.size(), 1u);
     ASSERT_FALSE(kept.passes.empty());
+    EXPECT_LT(kept.passes.front().rounds, kept.rounds.size());
     const auto off = [&] {
         LinkRadiosity over(scene, {}, limits);
         over.use(kept, LinkRadiosity::Then::end);
@@ -331,6 +332,31 @@ TEST(KeptLight, OfABakeByNeedIsItsLight)
     EXPECT_LT(off(), kResidual);
     kept.passes.clear();
     EXPECT_GT(off(), kResidual);
+}
+
+/// Passes for the light of one lamp do not keep those from starting that another needs.
+TEST(KeptLight, UnderAnotherLampReachesTheErrorOfItsBake)
+{
+    constexpr double kTarget = 0.01;
+    const auto lit_from = [](float x) {
+        Scene scene = test::open_box();
+        PunctualLight lamp{.kind = PunctualLight::Kind::point, .name = "lamp"};
+        lamp.transform = glm::translate(glm::mat4(1.0f), {x, 0.45f, 0.3f});
+        lamp.intensity = 10.0f;
+        lamp.radius = 0.05f;
+        scene.lights = {lamp};
+        return SolveScene(std::move(scene), AtlasOptions{.size = kSide});
+    };
+    const SolveLimits limits{.target_error = kTarget};
+    const SolveScene left = lit_from(0.1f), right = lit_from(0.45f);
+    LinkRadiosity bake(left, {}, limits, Parts::direct);
+    solve(bake, limits);
+    const StoredLinks kept = bake.kept("hash");
+    ASSERT_FALSE(kept.passes.empty());
+    LinkRadiosity over(right, {}, limits, Parts::direct);
+    over.use(kept, LinkRadiosity::Then::end);
+    solve(over, limits);
+    EXPECT_LE(over.state().error, kTarget);
 }
 
 /// Its lumels are others than those that the guide was learnt for.
@@ -394,6 +420,18 @@ TEST(KeptLinks, FromADamagedFileAreRefused)
     kept.rounds[0].ends[1][5] = LinkEnd::of(LinkNumbers::kSky);
     write_links(path, kept);
     read_links(path);
+    const auto refuses = [&](const StoredLinks::Pass& pass) {
+        kept.passes = {pass};
+        write_links(path, kept);
+        EXPECT_THROW(read_links(path), Error);
+    };
+    const std::size_t lumels = kept.lumels.size();
+    refuses({.rounds = 2, .levels = std::vector<std::uint8_t>(lumels)});
+    refuses({.aim = ErrorOf(4), .levels = std::vector<std::uint8_t>(lumels)});
+    refuses({.levels = std::vector<std::uint8_t>(lumels, DirectEstimator::kMaxLevel + 1)});
+    refuses({.levels = std::vector<std::uint8_t>(lumels - 1)});
+    kept.passes.clear();
+    write_links(path, kept);
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
     file.seekp(1000);
     file.put('?');
