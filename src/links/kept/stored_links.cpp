@@ -74,9 +74,9 @@ StoredLinks::Pass renumbered(const StoredLinks::Pass& pass, const Renumbering& n
 
 }  // namespace
 
-bool StoredLinks::Pass::fits(std::size_t lumels, std::size_t most) const
+bool StoredLinks::Pass::fits(std::size_t count, std::size_t most) const
 {
-    return aim <= ErrorOf::chart && rounds <= most && levels.size() == lumels &&
+    return aim <= ErrorOf::chart && rounds <= most && levels.size() == count &&
            std::ranges::all_of(
                levels, [](std::uint8_t level) { return level <= DirectEstimator::kMaxLevel; });
 }

@@ -46,8 +46,8 @@ struct StoredLinks {
         double before = 0.0;               ///< that error by direct light, squared, before the pass
         std::vector<std::uint8_t> levels;  ///< [N] DirectEstimator::levels()
 
-        /// True for a pass of N lumels after at most `most` rounds.
-        bool fits(std::size_t lumels, std::size_t most) const;
+        /// True for a pass of `count` lumels after at most `most` rounds.
+        bool fits(std::size_t count, std::size_t most) const;
         template <class Archive>
         void state(Archive& archive)
         {

@@ -30,8 +30,12 @@ private:
     };
 
     static bool exists(const Cell& cell);
-    int& part(const Cell& cell) { return parts_[std::size_t(cell.z * kSide + cell.x)]; }
-    int part(const Cell& cell) const { return parts_[std::size_t(cell.z * kSide + cell.x)]; }
+    static std::size_t index(const Cell& cell)
+    {
+        return std::size_t(cell.z) * kSide + std::size_t(cell.x);
+    }
+    int& part(const Cell& cell) { return parts_[index(cell)]; }
+    int part(const Cell& cell) const { return parts_[index(cell)]; }
     glm::dvec2 corner(int x, int z) const;
     glm::vec3 middle(const Cell& cell) const;
     bool is_free(const glm::vec3& from, const glm::vec3& to) const;
