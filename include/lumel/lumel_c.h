@@ -144,7 +144,7 @@ typedef struct lumel_daylight {
     double sun_elevation;       /* above the horizon */
     float sky_scale;            /* factor for the sky; 0: 1 */
     double rotation;            /* of both about +y, counter-clockwise from above */
-    float ground; /* albedo below the horizon, 0…1; 0: none; ignored for sky images */
+    float ground;               /* albedo below the horizon; 0: none; not for sky images */
 } lumel_daylight;
 LUMEL_C_API lumel_result lumel_add_daylight(lumel_scene* scene, const lumel_daylight* daylight);
 

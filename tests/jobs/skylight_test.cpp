@@ -63,18 +63,24 @@ double exact(const glm::vec3& point)
     return double(kSky) * sum * kHole * kHole / (kSteps * kSteps);
 }
 
+/// To what an eye sees, with at most so many rays per lumel.
+support::Solved solved_by(const SolveScene& world, std::uint64_t rays)
+{
+    SolverOptions options;
+    options.method = support::method("links");
+    options.target_error = 0.0;
+    options.target_quality = kGood;
+    options.max_shots = rays;
+    return support::solve_scene(world, options);
+}
+
 /// The noise that an eye sees is judged away from the walls, but it comes from lumels beside them
 /// as well: the filter mixes these in. Without rays for these the foot of the walls stays full of
 /// specks, however many rays the floor gets.
 TEST(Skylight, IsCleanUpToTheFootOfTheWalls)
 {
     const SolveScene world(skylit_room(), {.texels_per_metre = 10.0f});
-    SolverOptions options;
-    options.method = support::method("links");
-    options.target_error = 0.0;
-    options.target_quality = kGood;
-    options.max_shots = 600;
-    const support::Solved solved = support::solve_scene(world, options);
+    const support::Solved solved = solved_by(world, 600);
     double squares = 0.0;
     int count = 0;
     for (std::size_t i = 0; i < world.lumels.lumels.size(); ++i) {
@@ -119,12 +125,7 @@ TEST(Skylight, IsCleanWhereAKerbCoversPartsOfLumels)
     const Kerb kerb;
     kerb.add_to(scene);
     const SolveScene world(std::move(scene), {.texels_per_metre = kTexels});
-    SolverOptions options;
-    options.method = support::method("links");
-    options.target_error = 0.0;
-    options.target_quality = kGood;
-    options.max_shots = 200;
-    const support::Solved solved = support::solve_scene(world, options);
+    const support::Solved solved = solved_by(world, 200);
     double squares = 0.0;
     int count = 0;
     for (std::size_t i = 0; i < world.lumels.lumels.size(); ++i) {

@@ -133,23 +133,6 @@ AreaLimits limits_of(RoomArea area, const AreaLimits& task)
     return {};
 }
 
-/// The floor of a room, in coordinates of the file [m].
-struct FoundRoom {
-    RoomFloor floor;
-    bool is_known = false;  ///< else the floor is the lowest surface of the scene
-};
-
-/// Removes points that are apart from the space of the room. Returns how many.
-std::size_t remove_apart(const RoomSpace& space, const glm::dvec2& shift,
-                         std::vector<AreaPoints>& areas)
-{
-    std::size_t removed = 0;
-    for (AreaPoints& area : areas)
-        removed += std::erase_if(
-            area.points, [&](const AreaPoint& point) { return !space.has(point.at - shift); });
-    return removed;
-}
-
 /// Points in the open air with their cells, and the illuminance of each lamp at them.
 Json measured(const AreaPoints& area, const AreaLimits& task, double height, const RoomMeter& meter)
 {
@@ -183,17 +166,43 @@ FloorArea bounds_of(const SolveScene& scene)
     return {{low.x, low.z}, {high.x, high.z}};
 }
 
-/// The floor within bounds [m], or the lowest surface of the scene if none is found.
-FoundRoom room_within(const SolveScene& scene, const FloorArea& bounds)
+glm::dvec2 shift_of(const SolveScene& scene)
 {
-    const glm::dvec2 shift(scene.scene.origin.x, scene.scene.origin.z);
-    std::optional<RoomFloor> found =
-        floor_of_room(scene.rays, {bounds.low - shift, bounds.high - shift});
-    if (!found)
-        return {{scene.low_in_file().y, bounds}};
-    return {
-        {found->height + scene.scene.origin.y, {found->area.low + shift, found->area.high + shift}},
-        true};
+    return {scene.scene.origin.x, scene.scene.origin.z};
+}
+
+/// In the coordinates of the rays [m].
+FloorArea in_rays(const FloorArea& area, const SolveScene& scene)
+{
+    return {area.low - shift_of(scene), area.high - shift_of(scene)};
+}
+
+/// The floor within bounds [m], if there is one.
+std::optional<RoomFloor> floor_within(const SolveScene& scene, const FloorArea& bounds)
+{
+    std::optional<RoomFloor> found = floor_of_room(scene.rays, in_rays(bounds, scene));
+    if (found) {
+        found->height += scene.scene.origin.y;
+        found->area.low += shift_of(scene);
+        found->area.high += shift_of(scene);
+    }
+    return found;
+}
+
+/// Removes points that surfaces part from the room. Returns how many.
+std::size_t remove_apart(const SolveScene& scene, const FloorArea& room, double height,
+                         const std::optional<FloorArea>& task, std::vector<AreaPoints>& areas)
+{
+    std::optional<FloorArea> core;
+    if (task)
+        core = in_rays(*task, scene);
+    const RoomSpace space(scene.rays, in_rays(room, scene), height - scene.scene.origin.y, core);
+    std::size_t removed = 0;
+    for (AreaPoints& area : areas)
+        removed += std::erase_if(area.points, [&](const AreaPoint& point) {
+            return !space.has(point.at - shift_of(scene));
+        });
+    return removed;
 }
 
 void check_height(double height, const SolveScene& scene)
@@ -260,25 +269,18 @@ Json room_data(const std::string& folder, const RoomOptions& options)
     const SolveScene& scene = bake.prepared;
     if (options.height)
         check_height(*options.height, scene);
-    const FoundRoom found =
-        room_within(scene, options.bounds ? area_of(*options.bounds) : bounds_of(scene));
-    const FloorArea room = options.bounds ? area_of(*options.bounds) : found.floor.area;
+    const FloorArea searched = options.bounds ? area_of(*options.bounds) : bounds_of(scene);
+    const std::optional<RoomFloor> floor = floor_within(scene, searched);
+    const FloorArea room = floor && !options.bounds ? floor->area : searched;
     std::optional<FloorArea> task;
     if (options.task)
         task = area_of(*options.task);
     std::vector<AreaPoints> areas = points_in_areas(room, task ? &*task : nullptr);
-    const double height = options.height.value_or(found.floor.height + use.height);
-    std::size_t apart = 0;
-    if (found.is_known || options.bounds) {
-        const glm::dvec3 origin(scene.scene.origin);
-        const glm::dvec2 shift(origin.x, origin.z);
-        const auto in_rays = [&](const FloorArea& area) {
-            return FloorArea{area.low - shift, area.high - shift};
-        };
-        const RoomSpace space(scene.rays, in_rays(room), height - origin.y,
-                              task ? std::optional(in_rays(*task)) : std::nullopt);
-        apart = remove_apart(space, shift, areas);
-    }
+    const double level = floor ? floor->height : scene.low_in_file().y;
+    const double height = options.height.value_or(level + use.height);
+    // Outdoors can be the largest space of a site.
+    const bool is_known = floor || options.bounds;
+    const std::size_t apart = is_known ? remove_apart(scene, room, height, task, areas) : 0;
     const AreaLimits limits{options.illuminance.value_or(use.illuminance),
                             options.uniformity.value_or(use.uniformity)};
     const RoomMeter meter(folder, bake, options.samples);
@@ -288,8 +290,7 @@ Json room_data(const std::string& folder, const RoomOptions& options)
     if (measured_areas.front()["places"].empty())
         throw Error(ErrorKind::input, "--en12464",
                     "finds no point of the task area in the open air of the room; use --plane, "
-                    "--bounds and "
-                    "--task");
+                    "--bounds and --task");
     return {{"title", use.title},
             {"maintenance", options.maintenance},
             {"height", height},
@@ -309,7 +310,7 @@ std::string room_text(const Json& room)
     for (const Json& area : room["areas"])
         text += line_of(area, room["maintenance"].get<double>());
     if (const auto apart = room["apart"].get<std::size_t>(); apart > 0)
-        text += fmt::format("left out, apart from the room: {}\n", apart);
+        text += fmt::format("points left out, as they are not in the room: {}\n", apart);
     if (room["has_daylight"].get<bool>())
         text += "the light of sky and sun is counted like that of lamps\n";
     return text;

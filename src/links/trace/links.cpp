@@ -116,8 +116,7 @@ void LinkRadiosity::step()
         if (direct_->step())
             break;
         if (state_.shots == 0 || has_known_round()) {
-            if (!repeat_pass())
-                begin_round();
+            begin_round();
         } else {
             estimate();
             go_on();
@@ -352,8 +351,7 @@ void LinkRadiosity::end_round()
     means_.push_back(mean_rays_);
     ++round_;
     if (has_known_round()) {
-        if (!repeat_pass())
-            begin_known_round();
+        begin_round();
         return;
     }
     solve();

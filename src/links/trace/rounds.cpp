@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "links/trace/links.h"
 
@@ -149,6 +150,9 @@ bool LinkRadiosity::repeat_pass()
         std::abs(errors(pass.aim).direct - pass.before) <= kSameLight * pass.before;
     direct_->refine_to(pass.levels);
     add_pass(pass.aim, pass.before);
+    // Unknown until the light is that of the bake, or a looser target would end the state before.
+    state_.error = state_.dark_error = state_.eye_error = -1.0;
+    state_.visible_noise.worst_chart = std::numeric_limits<double>::infinity();
     // Whether a pass helped under the light of the bake says nothing about another.
     if (!is_same_light)
         refined_ = {};
@@ -167,7 +171,8 @@ void LinkRadiosity::end()
 void LinkRadiosity::begin_round()
 {
     if (has_known_round()) {
-        begin_known_round();
+        if (!repeat_pass())
+            begin_known_round();
         return;
     }
     if (most_shots_ > 0 && state_.shots >= most_shots_) {

@@ -71,6 +71,9 @@ StoredLinks LinkRadiosity::kept(const std::string& hash) const
                      .passes = passes_};
     for (std::size_t r = 0; r < means_.size(); ++r)
         kept.rounds.push_back(stored_round(r, kept.numbers()));
+    // A limit of rays can end a bake when a pass has just been scheduled.
+    if (!kept.passes.empty() && direct_->fraction() < 1.0)
+        kept.passes.pop_back();
     keep_places(work_.scene.atlas, kept);
     return kept;
 }

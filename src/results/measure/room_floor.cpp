@@ -17,18 +17,11 @@ constexpr double kShareOfRoom = 0.25;  ///< least part of the room's longest sid
 constexpr double kSameFloor = 0.01;    ///< [m]
 constexpr float kAbove = 1.0f;         ///< start of the lines above the scene [m]
 
-/// True if two of four horizontal rays hit back faces. Not all four do: adjacent solids can share a
-/// side.
-bool is_in_a_solid(const RayScene& rays, const glm::vec3& from)
+/// True if two of the sides around are backs. Not all four are: adjacent solids can share a side.
+bool is_in_a_solid(const RayScene& rays, const glm::vec3& point)
 {
     constexpr int kLeastBacks = 2;
-    int backs = 0;
-    for (const glm::vec3& direction :
-         {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)}) {
-        RayHit hit;
-        backs += rays.closest(ray_out(from, direction, 0), hit) && !hit.front ? 1 : 0;
-    }
-    return backs >= kLeastBacks;
+    return sides_around(rays, point).backs >= kLeastBacks;
 }
 
 /// Height of the floor of the lowest room along a vertical line.
@@ -130,6 +123,18 @@ private:
 };
 
 }  // namespace
+
+SidesAround sides_around(const RayScene& rays, const glm::vec3& point)
+{
+    SidesAround sides;
+    for (const glm::vec3& direction :
+         {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)}) {
+        RayHit hit;
+        if (rays.closest(ray_out(point, direction, 0), hit))
+            ++(hit.front ? sides.fronts : sides.backs);
+    }
+    return sides;
+}
 
 std::optional<RoomFloor> floor_of_room(const RayScene& rays, const FloorArea& area)
 {

@@ -8,6 +8,12 @@
 
 namespace lumel {
 
+/// Sides that four horizontal rays from a point hit.
+struct SidesAround {
+    int fronts = 0, backs = 0;
+};
+SidesAround sides_around(const RayScene& rays, const glm::vec3& point);
+
 struct RoomFloor {
     double height = 0.0;  ///< y [m]
     FloorArea area;       ///< bounds of the floor, to 1 % of its size; the whole search area if the

@@ -1,16 +1,10 @@
 #include "results/measure/room_space.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "results/measure/room_floor.h"
 
 namespace lumel {
-namespace {
-
-/// To the four neighbours of a cell.
-constexpr std::array<std::array<int, 2>, 4> kAside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-
-}  // namespace
-
 RoomSpace::RoomSpace(const RayScene& rays, const FloorArea& area, double height,
                      const std::optional<FloorArea>& task)
     : rays_(rays),
@@ -52,10 +46,9 @@ glm::vec3 RoomSpace::middle(const Cell& cell) const
 
 bool RoomSpace::is_free(const glm::vec3& from, const glm::vec3& to) const
 {
-    const glm::vec3 way = to - from;
-    const float length = glm::length(way);
+    const RaySpan way = ray_between(from, to, 0.0f, 0);
     RayHit hit;
-    return !(length > 0.0f) || !rays_.closest(from, way / length, 0.0f, length, 0, hit);
+    return way.far <= way.near || !rays_.closest(way, hit);
 }
 
 bool RoomSpace::is_in(const Cell& cell, const FloorArea& task) const
@@ -69,13 +62,7 @@ bool RoomSpace::is_in(const Cell& cell, const FloorArea& task) const
 bool RoomSpace::is_enclosed(const Cell& cell) const
 {
     constexpr int kLeastFronts = 3;
-    const float far = std::numeric_limits<float>::max();
-    int fronts = 0;
-    for (const auto& [dx, dz] : kAside) {
-        RayHit hit;
-        fronts += rays_.closest(middle(cell), {dx, 0, dz}, 0.0f, far, 0, hit) && hit.front ? 1 : 0;
-    }
-    return fronts >= kLeastFronts;
+    return sides_around(rays_, middle(cell)).fronts >= kLeastFronts;
 }
 
 /// Numbers the cells that join a cell, and returns them.
@@ -85,8 +72,8 @@ std::vector<RoomSpace::Cell> RoomSpace::fill(const Cell& first, int number)
     part(first) = number;
     for (std::size_t n = 0; n < cells.size(); ++n) {
         const Cell from = cells[n];
-        for (const auto& [dx, dz] : kAside) {
-            const Cell to{from.x + dx, from.z + dz};
+        for (const Cell& to : {Cell{from.x + 1, from.z}, Cell{from.x - 1, from.z},
+                               Cell{from.x, from.z + 1}, Cell{from.x, from.z - 1}}) {
             if (!exists(to) || part(to) != 0 || !is_free(middle(from), middle(to)))
                 continue;
             part(to) = number;
@@ -103,7 +90,7 @@ bool RoomSpace::has(const glm::dvec2& at) const
     const glm::dvec2 place = double(kSide) * (at - area_.low) / (area_.high - area_.low);
     const glm::ivec2 own(glm::floor(place));
     const glm::vec3 point(at.x, height_, at.y);
-    // The middle of the own cell can be inside of a thing.
+    // The middle of the own cell can lie inside furniture.
     for (int z = own.y - 1; z <= own.y + 1; ++z)
         for (int x = own.x - 1; x <= own.x + 1; ++x)
             if (const Cell cell{x, z};

@@ -292,7 +292,7 @@ TEST(KeptLight, OverGuidedLinksIsThatOfTracingThemAgain)
     EXPECT_EQ(over.irradiance(), anew.irradiance());
 }
 
-/// Shadow rays by need are those of the bake.
+/// Shadow rays by need are those of the bake, also if a looser target is reached without them.
 TEST(KeptLight, OverRefinedDirectLightIsThatOfTheBake)
 {
     const SolveScene scene = two_rooms();
@@ -304,7 +304,7 @@ TEST(KeptLight, OverRefinedDirectLightIsThatOfTheBake)
     LinkRadiosity over(scene, {}, limits, Parts::direct);
     over.use(kept, LinkRadiosity::Then::end);
     for (int state = 0; state < 2; ++state) {
-        solve(over, limits);
+        solve(over, {.target_error = 10.0 * limits.target_error});
         EXPECT_EQ(over.irradiance(), bake.irradiance()) << state;
         EXPECT_EQ(over.kept("hash").passes.size(), kept.passes.size()) << state;
         over.relight();
@@ -332,6 +332,24 @@ TEST(KeptLight, OfABakeByNeedIsItsLight)
     EXPECT_LT(off(), kResidual);
     kept.passes.clear();
     EXPECT_GT(off(), kResidual);
+}
+
+/// A limit of rays ends a bake right after a round, when a pass is scheduled.
+TEST(KeptLinks, AreWithoutThePassThatDidNotRun)
+{
+    const SolveScene scene = two_rooms();
+    const SolveLimits limits{.target_error = 0.003};
+    LinkRadiosity bake(scene, {}, limits), stopped(scene, {}, limits);
+    solve(bake, limits);
+    const StoredLinks kept = bake.kept("hash");
+    ASSERT_FALSE(kept.passes.empty());
+    const auto steps_to = [&](std::size_t rounds) {
+        do
+            stopped.step();
+        while (stopped.state().shots == 0 || stopped.kept("hash").rounds.size() < rounds);
+    };
+    steps_to(kept.passes.front().rounds);
+    EXPECT_TRUE(stopped.kept("hash").passes.empty());
 }
 
 /// Passes for the light of one lamp do not keep those from starting that another needs.
