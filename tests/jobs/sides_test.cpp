@@ -109,6 +109,18 @@ TEST(Sides, HaveTexelsOfTheirOwnWhereLightReachesBoth)
     EXPECT_EQ(charts_with_own_back(void_outside, 0, kFirstOfBlock), none) << "none outside";
 }
 
+/// A sheet parts a room with a bulb from a dark one.
+TEST(Sides, OfADarkRoomDoNotShowTheLightBehindItsWalls)
+{
+    Scene scene = house_with(true, true, false);
+    const auto walls = support::box_walls({4, 0, 0}, {8, 3, 4}, true, {.double_sided = true});
+    for (std::size_t side = 1; side < walls.size(); ++side)
+        support::add_quad(scene, walls[side]);
+    const SolveScene house(scene, AtlasOptions{.size = 96});
+    const std::vector<char> wall_between = {0, 1, 0, 0, 0, 0};
+    EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), wall_between);
+}
+
 TEST(Sides, AreLitByOneLampAmongMany)
 {
     Scene street = house_with(true, true, false);

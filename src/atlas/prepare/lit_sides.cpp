@@ -22,6 +22,8 @@ constexpr std::uint32_t kWalksForLight = 64;
 constexpr std::uint32_t kMaxSteps = 24;  ///< steps per walk
 /// Dark sides are inside a solid if most rays from them are shorter [m]. Dark rooms are wider.
 constexpr float kThickest = 1.0f;
+/// Least share of the rays from a side that hit something in a room; outdoors fewer do.
+constexpr double kEnclosed = 0.9;
 /// Walks from each lamp, which light the surfaces that they hit; fewer if there are many lamps.
 constexpr std::uint32_t kLampWalks = 256, kMinLampWalks = 16, kAllLampWalks = 1 << 16;
 constexpr std::uint32_t kLampSteps = 3;
@@ -321,17 +323,23 @@ public:
         ChartSides found;
         if (sides_[chart].area() == 0.0)
             return found;
-        found.shows_both = true;
+        std::array<Light, 2> light{};
+        std::array<Space, 2> space{};
         for (const bool back : {false, true}) {
-            const Light light = on(chart, back);
-            found.shows_both &= light == Light::enough;
-            found.inner[back] = light == Light::none && is_narrow(chart, back);
+            light[back] = on(chart, back);
+            space[back] = before(chart, back);
+            found.inner[back] = light[back] == Light::none && space[back] == Space::narrow;
         }
+        const auto lit = std::ranges::count(light, Light::enough);
+        // A hollow house is dark as well, but few look into it.
+        const bool is_between_rooms = space[0] == Space::room && space[1] == Space::room;
+        found.shows_both = lit == 2 || (lit == 1 && is_between_rooms);
         return found;
     }
 
 private:
     enum class Light { none, little, enough };
+    enum class Space { narrow, room, outside };
 
     Light on(std::size_t chart, bool back) const
     {
@@ -347,18 +355,22 @@ private:
         return lit == 0 ? Light::none : lit < enough ? Light::little : Light::enough;
     }
 
-    /// True if most rays from a side hit something within kThickest.
-    bool is_narrow(std::size_t chart, bool back) const
+    /// The space in front of a side.
+    Space before(std::size_t chart, bool back) const
     {
-        std::uint32_t near = 0;
+        std::uint32_t near = 0, hits = 0;
         for (std::uint32_t ray = 0; ray < kMinWalks; ++ray) {
             const Place at = sides_[chart].start(back, ray, kMinWalks);
             const std::uint32_t seed = seed_of(chart, back, ray);
             RayHit hit;
-            near += rays_.closest(ray_out(at.position, any_about(at.normal, seed), seed), hit) &&
-                    hit.distance < kThickest;
+            if (!rays_.closest(ray_out(at.position, any_about(at.normal, seed), seed), hit))
+                continue;
+            ++hits;
+            near += hit.distance < kThickest;
         }
-        return 2 * near > kMinWalks;
+        return 2 * near > kMinWalks                    ? Space::narrow
+               : double(hits) >= kEnclosed * kMinWalks ? Space::room
+                                                       : Space::outside;
     }
 
     static std::uint32_t seed_of(std::size_t chart, bool back, std::uint32_t walk)
