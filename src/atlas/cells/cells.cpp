@@ -52,9 +52,10 @@ struct RaysTogether {
     bool sees(std::size_t ray) const { return transmittance[ray] != glm::vec3(0.0f); }
 };
 
-/// Joins cells at an offset from each other whose points are mutually visible.
-void join_along(const SeenCells& seen, int dx, int dy, const RayScene& scene, RaysTogether& cast,
-                Joined& joined)
+/// Joins cells at an offset from each other whose points are mutually visible; all of them if
+/// nothing can stand between.
+void join_along(const SeenCells& seen, bool is_clear, int dx, int dy, const RayScene& scene,
+                RaysTogether& cast, Joined& joined)
 {
     const CellPoints& points = seen.points();
     std::array<std::pair<std::uint32_t, std::uint32_t>, kCells> pairs;
@@ -65,6 +66,10 @@ void join_along(const SeenCells& seen, int dx, int dy, const RayScene& scene, Ra
             const auto b = std::uint32_t((y + dy) * kCellSide + x + dx);
             if (!points.has(a) || !points.has(b) || joined.root(a) == joined.root(b))
                 continue;
+            if (is_clear) {
+                joined.join(a, b);
+                continue;
+            }
             pairs[cast.rays.size()] = {a, b};
             cast.rays.push_back(seen.ray_to(points.point[a], b));
         }
@@ -323,11 +328,13 @@ SubLumels::SubLumels(const WorldLumels& world, const Cells& cells, const RayScen
             if (lumels.lumels[i].flags & kLumelBuried)
                 continue;
             const SeenCells seen = seen_cells(i);
+            const bool is_clear = world.is_clear(i, rays);
             Joined joined;
             for (const auto& [dx, dy] : {std::pair(1, 0), {0, 1}, {1, 1}, {-1, 1}})
-                join_along(seen, dx, dy, rays, cast, joined);
+                join_along(seen, is_clear, dx, dy, rays, cast, joined);
             with_cells_[i] = std::uint8_t(number_parts(seen.points(), joined, code_[i]));
-            const Cover cover = find_cover(world, rays, i, seen, seed_of(i), cast);
+            const Cover cover =
+                is_clear ? Cover{} : find_cover(world, rays, i, seen, seed_of(i), cast);
             if (is_cut(i) || cover.has_sliver)
                 flags_[i] |= kHasHidden;
             if (cover.is_half)

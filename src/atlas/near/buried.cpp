@@ -34,15 +34,17 @@ struct FirstLook {
 };
 
 /// Tests a few points: near the corners of its pieces, where neighbours begin to cover it, and over
-/// the whole lumel.
+/// the whole lumel; one point of a lumel that nothing is near.
 FirstLook first_look(const LumelsInScene& look, const InnerSides& inner, std::size_t i)
 {
     constexpr std::size_t kMostPoints = kFirstPoints + kCornersOfPiece * kCornerPieces;
     std::array<LumelPoint, kMostPoints> points;
     std::array<bool, kMostPoints> hidden;
     std::size_t count = 0;
-    for (std::uint32_t k = 0; k < kFirstPoints; ++k)
+    const bool is_clear = look.world.is_clear(i, look.rays);
+    for (std::uint32_t k = 0; k < (is_clear ? 1 : kFirstPoints); ++k)
         points[count++] = look.world.point_on(i, sobol_pair(k, 0));
+    const std::size_t first_corner = count;
     const std::span<const Piece> pieces = look.world.pieces(look.world[i]);
     for (const Piece& piece : pieces.first(std::min(pieces.size(), kCornerPieces)))
         for (const glm::vec2& uv :
@@ -50,14 +52,14 @@ FirstLook first_look(const LumelsInScene& look, const InnerSides& inner, std::si
               glm::vec2(kFromEdges, 1.0f - 2.0f * kFromEdges),
               glm::vec2(piece.parallelogram ? 1.0f - kFromEdges : 0.5f - kFromEdges)})
             points[count++] = point_in(piece, uv.x, uv.y);
-    const std::span tested = std::span(hidden).first(count);
+    const std::span tested = std::span(hidden).first(is_clear ? first_corner : count);
     HiddenPoints are_hidden(look, inner, i, kAllDirections, false);
-    are_hidden.look_for_backs(std::span(points).subspan(kFirstPoints, kCornersOfPiece));
-    are_hidden(std::span(points).first(count), tested);
+    are_hidden.look_for_backs(std::span(points).subspan(first_corner, kCornersOfPiece));
+    are_hidden(std::span(points).first(tested.size()), tested);
     const auto hides = std::size_t(std::ranges::count(tested, true));
-    return {hides == 0       ? Openness::open
-            : hides == count ? Openness::hidden
-                             : Openness::partly,
+    return {hides == 0               ? Openness::open
+            : hides == tested.size() ? Openness::hidden
+                                     : Openness::partly,
             are_hidden.successful(), are_hidden.is_near_back()};
 }
 

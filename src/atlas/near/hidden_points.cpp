@@ -4,7 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 
 #include "atlas/lumels/sides.h"
 #include "atlas/near/hemisphere.h"
@@ -28,6 +30,8 @@ constexpr int kFewFronts = int(kDirections) / 4;
 constexpr float kFar = 16.0f;
 /// Of walks in closed geometry.
 constexpr std::uint32_t kMostReflections = 16;
+/// Solids in contact, one behind the other, that a ray passes.
+constexpr int kMostContacts = 16;
 
 }  // namespace
 
@@ -76,8 +80,14 @@ void HiddenPoints::look_for_backs(std::span<const LumelPoint> points)
     }
     hits_.resize(rays_.size());
     look_.rays.closest(rays_, hits_);
-    if (std::ranges::none_of(
-            hits_, [&](const RayHit& hit) { return !std::isinf(hit.distance) && is_back(hit); }))
+    const auto meets_back = [&](const auto& is_one) {
+        for (std::size_t r = 0; r < rays_.size(); ++r)
+            if (!std::isinf(hits_[r].distance) && is_one(r))
+                return true;
+        return false;
+    };
+    if (!meets_back([&](std::size_t r) { return is_back(hits_[r]); }) &&
+        !meets_back([&](std::size_t r) { return is_contact(rays_[r], hits_[r]); }))
         return;
     std::array<bool, kCornersOfPiece> hidden{};
     in_doubt_.resize(points.size());
@@ -115,8 +125,18 @@ void HiddenPoints::find_shut_in(std::span<const LumelPoint> points, std::span<bo
 {
     left_.swap(in_doubt_);
     std::vector<Directions> fronts(points.size(), 0);
+    std::vector<std::optional<bool>> meets_contacts(points.size());  // by the first front
     for (std::uint32_t direction = 0; direction < kDirections && !left_.empty(); ++direction) {
         cast(points, direction);
+        for (std::size_t r = 0; r < left_.size(); ++r) {
+            if (std::isinf(hits_[r].distance) || is_back(hits_[r]))
+                continue;
+            std::optional<bool>& meets = meets_contacts[left_[r]];
+            if (!meets)
+                meets = is_contact(rays_[r], hits_[r]);
+            if (*meets)
+                pass_contacts(rays_[r], hits_[r]);
+        }
         for (std::size_t r = 0; r < left_.size(); ++r)
             if (std::isinf(hits_[r].distance))
                 fronts[left_[r]] = kAllDirections;
@@ -151,6 +171,22 @@ void HiddenPoints::cast(std::span<const LumelPoint> points, std::uint32_t direct
     }
     hits_.resize(rays_.size());
     look_.rays.closest(rays_, hits_);
+}
+
+bool HiddenPoints::is_contact(const RaySpan& ray, const RayHit& hit) const
+{
+    return !is_back(hit) &&
+           look_.rays.any_at(ray.origin + hit.distance * ray.direction, hit.ray_offset,
+                             ray.direction, [&](const RayHit& other) { return is_back(other); });
+}
+
+void HiddenPoints::pass_contacts(RaySpan ray, RayHit& hit) const
+{
+    for (int n = 0; n < kMostContacts && !std::isinf(hit.distance) && is_contact(ray, hit); ++n) {
+        ray.near = hit.distance + 2.0f * hit.ray_offset;
+        if (!look_.rays.closest(ray, hit))
+            hit.distance = std::numeric_limits<float>::infinity();
+    }
 }
 
 glm::vec2 HiddenPoints::sample(std::uint32_t direction) const

@@ -75,6 +75,14 @@ private:
     /// True if walks along all of these directions end at backs.
     bool all_end_at_backs(const LumelPoint& point, Directions fronts) const;
 
+    /// True if a back lies at the front that a ray has hit, as where two solids touch: it is by
+    /// chance that the ray has not hit its own solid's back.
+    bool is_contact(const RaySpan& ray, const RayHit& hit) const;
+
+    /// Replaces a hit at a contact by the one beyond, which tells whether the ray leaves the
+    /// solids.
+    void pass_contacts(RaySpan ray, RayHit& hit) const;
+
     /// Casts rays from the points left_.
     void cast(std::span<const LumelPoint> points, std::uint32_t direction);
 

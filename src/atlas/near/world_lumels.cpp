@@ -58,6 +58,23 @@ void WorldLumels::place(const Scene& scene, const Lumels& lumels,
         place(i, lumels, placements[lumels.lumels[i].instance]);
 }
 
+bool WorldLumels::is_clear(std::size_t i, const RayScene& rays) const
+{
+    constexpr float kBelowRays = 0.5f;  // of the height at which rays start
+    const WorldLumel& lumel = lumels_[i];
+    if (!lumel.flat)
+        return false;
+    float across = 0.0f;  // squared
+    for (const Facet* facet = begin(lumel); facet != end(lumel); ++facet)
+        for (int k = 0; k < facet->count; ++k) {
+            const glm::vec3 to_corner = facet->corner[k] - lumel.centre;
+            across = std::max(across, glm::dot(to_corner, to_corner));
+        }
+    return rays.is_clear_above(lumel.centre, lumel.normal,
+                               std::sqrt(across + lumel.size * lumel.size),
+                               kBelowRays * ray_offset_for(lumel.reach));
+}
+
 /// Transforms by instance.
 std::vector<WorldLumels::Placement> WorldLumels::placements_of(const Scene& scene)
 {

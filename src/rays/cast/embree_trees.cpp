@@ -136,6 +136,7 @@ void EmbreeTrees::add(const Scene& scene, std::uint32_t instance, std::uint32_t 
     TracedPart& part =
         parts_.emplace_back(TracedPart{&scene, &source, instance, primitive, number, 1.0f, {}});
     place_vertices(part, vertices);
+    part.vertices = vertices;
     part.longest_edge = longest_edges(part);
     std::copy(source.indices.begin(), source.indices.end(), indices);
 
@@ -213,6 +214,43 @@ void EmbreeTrees::place(const Tree& tree)
         rtcCommitGeometry(geometry);
     }
     rtcCommitScene(tree.scene);
+}
+
+namespace {
+
+/// Of EmbreeTrees::any_triangle().
+struct TriangleSearch {
+    const EmbreeTrees& trees;
+    const EmbreeTrees::IsOne& is_one;
+    bool is_found = false;
+};
+
+/// Embree's query: a radius of 0 ends the search.
+bool look_at_triangle(RTCPointQueryFunctionArguments* candidate)
+{
+    auto& search = *static_cast<TriangleSearch*>(candidate->userPtr);
+    if (search.is_found)
+        return false;
+    RTCHit hit{};
+    hit.instID[0] = candidate->context->instStackSize > 0 ? candidate->context->instID[0]
+                                                          : RTC_INVALID_GEOMETRY_ID;
+    hit.geomID = candidate->geomID;
+    search.is_found = search.is_one(search.trees.part(hit), candidate->primID);
+    if (search.is_found)
+        candidate->query->radius = 0.0f;
+    return search.is_found;
+}
+
+}  // namespace
+
+bool EmbreeTrees::any_triangle(const glm::vec3& centre, float radius, const IsOne& is_one) const
+{
+    TriangleSearch search{*this, is_one};
+    RTCPointQuery query{centre.x, centre.y, centre.z, 0.0f, radius};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(top_, &query, &context, look_at_triangle, &search);
+    return search.is_found;
 }
 
 const TracedPart& EmbreeTrees::part(const RTCHit& hit) const

@@ -1,8 +1,10 @@
 #pragma once
 // Embree BVHs of a scene: one for static geometry, one per movable instance, and one over all.
 
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,6 +23,18 @@ struct TracedPart {
     float winding = 1.0f;             ///< -1: mirrored instance, clockwise vertices at the front
     std::vector<float> longest_edge;  ///< [triangles] world [m]; motion is rigid
 
+    const float* vertices = nullptr;  ///< Embree's, world [m]
+
+    /// Corners of a triangle, world [m].
+    std::array<glm::vec3, 3> triangle(std::uint32_t index) const
+    {
+        const std::uint32_t* corner = source->indices.data() + std::size_t(index) * 3;
+        const auto vertex = [&](std::uint32_t k) {
+            const float* at = vertices + std::size_t(corner[k]) * 3;
+            return glm::vec3(at[0], at[1], at[2]);
+        };
+        return {vertex(0), vertex(1), vertex(2)};
+    }
     glm::vec3 to_world(const glm::vec3& position) const
     {
         return glm::vec3(scene->instances[instance].transform * glm::vec4(position, 1.0f));
@@ -46,6 +60,10 @@ public:
     RTCScene top() const { return top_; }  ///< for queries
     const std::vector<TracedPart>& parts() const { return parts_; }
     const TracedPart& part(const RTCHit& hit) const;
+
+    /// True if `is_one` says so of a triangle of a part whose box meets the sphere.
+    using IsOne = std::function<bool(const TracedPart&, std::uint32_t triangle)>;
+    bool any_triangle(const glm::vec3& centre, float radius, const IsOne& is_one) const;
 
     /// Memory used by Embree [bytes].
     std::uint64_t bytes() const { return std::uint64_t(bytes_.load()); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -161,6 +162,30 @@ glm::vec3 tint_along(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
     context.sort_by_part();
     const bool clear = ray.tfar >= 0.0f;  // Embree marks an occluded ray by -infinity
     return clear ? context.tint_before(std::numeric_limits<float>::infinity()) : glm::vec3(0.0f);
+}
+
+/// Corners, world [m].
+using Triangle = std::array<glm::vec3, 3>;
+
+/// True if a triangle has a point within a distance of `point`.
+bool is_within(const Triangle& corner, const glm::vec3& point, float distance)
+{
+    const glm::vec3 u = corner[1] - corner[0], v = corner[2] - corner[0], at = point - corner[0],
+                    across = glm::cross(u, v);
+    const float square = glm::dot(across, across), off = glm::dot(at, across);
+    if (off * off > distance * distance * square)
+        return false;
+    const float s = glm::dot(glm::cross(at, v), across), t = glm::dot(glm::cross(u, at), across);
+    if (square > 0.0f && s >= 0.0f && t >= 0.0f && s + t <= square)
+        return true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec3 edge = corner[(k + 1) % 3] - corner[k], from = point - corner[k];
+        const float along =
+            std::clamp(glm::dot(from, edge) / std::max(glm::dot(edge, edge), 1e-30f), 0.0f, 1.0f);
+        if (glm::distance(from, along * edge) <= distance)
+            return true;
+    }
+    return false;
 }
 
 /// Sets what follows from Embree's hit; the tint remains.
@@ -376,6 +401,36 @@ void RayScene::closest(std::span<const RaySpan> rays, std::span<RayHit> hits) co
         else if (!closest(rays[first], hits[first]))  // a packet of one is slower
             hits[first].distance = std::numeric_limits<float>::infinity();
     }
+}
+
+bool RayScene::is_clear_above(const glm::vec3& point, const glm::vec3& normal, float radius,
+                              float height) const
+{
+    return !trees_->any_triangle(
+        point, radius, [&](const TracedPart& part, std::uint32_t triangle) {
+            const Triangle corner = part.triangle(triangle);
+            const auto rises = [&](const glm::vec3& at) {
+                return glm::dot(normal, at - point) > height;
+            };
+            return std::ranges::any_of(corner, rises) && is_within(corner, point, radius);
+        });
+}
+
+bool RayScene::any_at(const glm::vec3& point, float radius, const glm::vec3& direction,
+                      const std::function<bool(const RayHit& hit)>& is_one) const
+{
+    return trees_->any_triangle(point, radius, [&](const TracedPart& part, std::uint32_t triangle) {
+        const Triangle corner = part.triangle(triangle);
+        const glm::vec3 across =
+            part.winding * glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+        const float off = glm::dot(across, point - corner[0]);
+        return off * off <= radius * radius * glm::dot(across, across) &&
+               is_one({.instance = part.instance,
+                       .primitive = part.primitive,
+                       .triangle = triangle,
+                       .front = glm::dot(across, direction) < 0.0f}) &&
+               is_within(corner, point, radius);
+    });
 }
 
 float RayScene::ray_offset(const glm::vec3& position, const glm::vec3& normal) const

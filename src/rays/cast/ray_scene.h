@@ -2,6 +2,7 @@
 // Rays on the CPU, by Embree. Handles geometry and opacity, no light.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -107,6 +108,16 @@ public:
     /// [rays]: with an infinite distance if there is none. Where surfaces coincide, the one that is
     /// hit can depend on the other rays.
     void closest(std::span<const RaySpan> rays, std::span<RayHit> hits) const;
+
+    /// True if no triangle within `radius` of a point rises more than `height` above the plane
+    /// through it, across the unit normal [m].
+    bool is_clear_above(const glm::vec3& point, const glm::vec3& normal, float radius,
+                        float height) const;
+
+    /// True if `is_one` says so of a surface within `radius` of a point [m]. hit: the surface, as
+    /// a ray along `direction` hits it, without the place and what depends on it.
+    bool any_at(const glm::vec3& point, float radius, const glm::vec3& direction,
+                const std::function<bool(const RayHit& hit)>& is_one) const;
 
     /// Triangles for other ray tracing backends: one part per primitive of each instance.
     std::size_t parts() const;

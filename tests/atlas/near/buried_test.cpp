@@ -85,6 +85,29 @@ TEST(Buried, TheFloorUnderABlockThatSinksInOrHoversByAHairIs)
     }
 }
 
+/// As steps of a stair, or a wall around a window: rays from below meet the front of the next block
+/// where they meet the back of their own.
+TEST(Buried, TheFloorUnderBlocksThatTouchIs)
+{
+    for (const float bottom : {-0.5f, 0.0f, 1e-3f}) {
+        std::vector<Quad> quads{floor_8x8()};
+        for (int step = 0; step < 5; ++step) {
+            const auto x = float(step + 1);
+            add_box(quads, {x, bottom, 1}, {x + 1.0f, 0.4f * x, 7}, closed);
+        }
+        expect_buried_floor(buried(quads), 1, 6, 1, 7);
+    }
+}
+
+/// Their faces coincide like those of blocks that touch.
+TEST(Buried, TheFloorAmongWallsOfTwoFacesEachIsNot)
+{
+    std::vector<Quad> quads{floor_8x8()};
+    for (const bool inward : {false, true})
+        add_box(quads, {0, 0, 0}, {8, 3, 8}, closed, inward);
+    expect_buried_floor(buried(quads), 0, 0, 0, 0);
+}
+
 TEST(Buried, ALumelPartlyUnderABlockIsNot)
 {
     std::vector<Quad> quads{floor_8x8()};

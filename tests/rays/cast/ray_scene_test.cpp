@@ -42,6 +42,42 @@ bool hits_from_above(const RayScene& rays, float x, float y, std::uint32_t seed 
     return rays.closest({x, y, 1.0f}, {0.0f, 0.0f, -1.0f}, 0.0f, kFar, seed, hit);
 }
 
+TEST(RayScene, NothingRisesAboveAFloorBesideAWallsReach)
+{
+    Scene scene;
+    add_quad(scene, unit_square());
+    add_quad(scene, {.corner = {1, 0, 0}, .edge_u = {0, 1, 0}, .edge_v = {0, 0, 1}});
+    const glm::vec3 up(0, 0, 1);
+    for (const bool moves : {false, true}) {
+        const RayScene rays(scene, std::vector<char>(2, moves ? 1 : 0));
+        EXPECT_TRUE(rays.is_clear_above({0.5f, 0.5f, 0.0f}, up, 0.49f, 1e-4f));
+        EXPECT_FALSE(rays.is_clear_above({0.5f, 0.5f, 0.0f}, up, 0.51f, 1e-4f));
+        EXPECT_TRUE(rays.is_clear_above({0.5f, 0.5f, 0.0f}, up, 0.51f, 1.1f)) << "lower than that";
+        // Beside the wall's edge, at 5 cm from it.
+        EXPECT_TRUE(rays.is_clear_above({0.96f, -0.03f, 0.0f}, up, 0.049f, 1e-4f));
+        EXPECT_FALSE(rays.is_clear_above({0.96f, -0.03f, 0.0f}, up, 0.051f, 1e-4f));
+    }
+}
+
+TEST(RayScene, FindsBothFacesWhereTwoCoincide)
+{
+    Scene scene;
+    add_quad(scene, unit_square());
+    add_quad(scene, {.edge_u = {0, 1, 0}, .edge_v = {1, 0, 0}});
+    const RayScene rays(scene);
+    int fronts = 0, backs = 0;
+    const auto count = [&](const RayHit& hit) {
+        ++(hit.front ? fronts : backs);
+        return false;
+    };
+    EXPECT_FALSE(rays.any_at({0.25f, 0.5f, 0.0f}, 1e-5f, {0, 0, -1}, count));
+    EXPECT_GE(fronts, 1);
+    EXPECT_GE(backs, 1);
+    const auto is_back = [](const RayHit& hit) { return !hit.front; };
+    EXPECT_TRUE(rays.any_at({0.25f, 0.5f, 0.0f}, 1e-5f, {0, 0, -1}, is_back));
+    EXPECT_FALSE(rays.any_at({0.25f, 0.5f, 0.01f}, 1e-5f, {0, 0, -1}, is_back));
+}
+
 /// However large a surface is, and wherever: from no side, at no angle.
 TEST(RayScene, RaysThatStartAtAHitDoNotHitItsSurfaceAgain)
 {
