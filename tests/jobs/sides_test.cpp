@@ -121,6 +121,31 @@ TEST(Sides, OfADarkRoomDoNotShowTheLightBehindItsWalls)
     EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), wall_between);
 }
 
+/// Its inside is as dark and as wide as a room.
+TEST(Sides, OfALargeClosedSolidAreShared)
+{
+    Scene scene;
+    for (const support::Quad& wall : support::box_walls({0, 0, 0}, {10, 8, 10}, true, {}))
+        support::add_quad(scene, wall);
+    add_bulb(scene);
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+    for (const support::Quad& face : support::box_walls({4, 0, 4}, {7, 3, 7}, false, {})) {
+        const auto first = std::uint32_t(positions.size());
+        for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u})
+            indices.push_back(first + k);
+        for (const glm::vec3& aside :
+             {glm::vec3(0.0f), face.edge_u, face.edge_u + face.edge_v, face.edge_v})
+            positions.push_back(face.corner + aside);
+    }
+    Material material;
+    material.double_sided = true;
+    support::add_mesh(scene, positions, indices, material);
+    const SolveScene world(std::move(scene), AtlasOptions{.size = 96});
+    EXPECT_EQ(charts_with_own_back(world, kFirstOfBlock, kFirstOfBlock + 1),
+              std::vector<char>(1, 0));
+}
+
 TEST(Sides, AreLitByOneLampAmongMany)
 {
     Scene street = house_with(true, true, false);

@@ -42,8 +42,11 @@ FirstLook first_look(const LumelsInScene& look, const InnerSides& inner, std::si
     std::array<bool, kMostPoints> hidden;
     std::size_t count = 0;
     const bool is_clear = look.world.is_clear(i, look.rays);
-    for (std::uint32_t k = 0; k < (is_clear ? 1 : kFirstPoints); ++k)
-        points[count++] = look.world.point_on(i, sobol_pair(k, 0));
+    if (is_clear)
+        points[count++] = {look.world[i].centre, look.world[i].normal};
+    else
+        for (std::uint32_t k = 0; k < kFirstPoints; ++k)
+            points[count++] = look.world.point_on(i, sobol_pair(k, 0));
     const std::size_t first_corner = count;
     const std::span<const Piece> pieces = look.world.pieces(look.world[i]);
     for (const Piece& piece : pieces.first(std::min(pieces.size(), kCornerPieces)))

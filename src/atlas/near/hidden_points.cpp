@@ -125,28 +125,34 @@ void HiddenPoints::find_shut_in(std::span<const LumelPoint> points, std::span<bo
 {
     left_.swap(in_doubt_);
     std::vector<Directions> fronts(points.size(), 0);
-    std::vector<std::optional<bool>> meets_contacts(points.size());  // by the first front
+    std::vector<char> meets_back(points.size(), 0);
+    // Whether the first front that a point meets is at a contact; else no further one is asked.
+    std::vector<std::optional<bool>> meets_contacts(points.size());
     for (std::uint32_t direction = 0; direction < kDirections && !left_.empty(); ++direction) {
         cast(points, direction);
         for (std::size_t r = 0; r < left_.size(); ++r) {
-            if (std::isinf(hits_[r].distance) || is_back(hits_[r]))
+            const std::uint32_t p = left_[r];
+            RayHit& hit = hits_[r];
+            if (std::isinf(hit.distance)) {
+                fronts[p] = kAllDirections;
                 continue;
-            std::optional<bool>& meets = meets_contacts[left_[r]];
-            if (!meets)
-                meets = is_contact(rays_[r], hits_[r]);
-            if (*meets)
-                pass_contacts(rays_[r], hits_[r]);
+            }
+            if (!is_back(hit)) {
+                if (!meets_contacts[p])
+                    meets_contacts[p] = is_contact(rays_[r], hit);
+                if (*meets_contacts[p])
+                    pass_contacts(rays_[r], hit);
+            }
+            if (is_open(points[p].normal, rays_[r], hit) && !std::isinf(hit.distance))
+                fronts[p] |= 1u << direction;
+            else if (!meets_back[p] && is_back(hit))
+                meets_back[p] = !is_contact(rays_[r], hit);
         }
-        for (std::size_t r = 0; r < left_.size(); ++r)
-            if (std::isinf(hits_[r].distance))
-                fronts[left_[r]] = kAllDirections;
-            else if (is_open(points[left_[r]].normal, rays_[r], hits_[r]))
-                fronts[left_[r]] |= 1u << direction;
         std::erase_if(left_,
                       [&](std::uint32_t p) { return std::popcount(fronts[p]) > kFewFronts; });
     }
     for (const std::uint32_t p : left_)
-        hidden[p] = all_end_at_backs(points[p], fronts[p]);
+        hidden[p] = meets_back[p] && all_end_at_backs(points[p], fronts[p]);
 }
 
 bool HiddenPoints::all_end_at_backs(const LumelPoint& point, Directions fronts) const
@@ -175,14 +181,17 @@ void HiddenPoints::cast(std::span<const LumelPoint> points, std::uint32_t direct
 
 bool HiddenPoints::is_contact(const RaySpan& ray, const RayHit& hit) const
 {
-    return !is_back(hit) &&
-           look_.rays.any_at(ray.origin + hit.distance * ray.direction, hit.ray_offset,
-                             ray.direction, [&](const RayHit& other) { return is_back(other); });
+    const bool back = is_back(hit);
+    return look_.rays.any_at(ray.origin + hit.distance * ray.direction, hit.ray_offset,
+                             ray.direction,
+                             [&](const RayHit& other) { return is_back(other) != back; });
 }
 
 void HiddenPoints::pass_contacts(RaySpan ray, RayHit& hit) const
 {
-    for (int n = 0; n < kMostContacts && !std::isinf(hit.distance) && is_contact(ray, hit); ++n) {
+    for (int n = 0;
+         n < kMostContacts && !std::isinf(hit.distance) && !is_back(hit) && is_contact(ray, hit);
+         ++n) {
         ray.near = hit.distance + 2.0f * hit.ray_offset;
         if (!look_.rays.closest(ray, hit))
             hit.distance = std::numeric_limits<float>::infinity();

@@ -68,19 +68,19 @@ private:
     /// nearby.
     std::size_t find_open(std::span<const LumelPoint> points, std::span<bool> hidden);
 
-    /// Hides points that are open by few fronts, which are shut in themselves: as the end of a
-    /// floor that a wall stands on.
+    /// Hides points that are open by few fronts, which are shut in themselves, if they meet a back:
+    /// as the end of a floor that a wall stands on.
     void find_shut_in(std::span<const LumelPoint> points, std::span<bool> hidden);
 
     /// True if walks along all of these directions end at backs.
     bool all_end_at_backs(const LumelPoint& point, Directions fronts) const;
 
-    /// True if a back lies at the front that a ray has hit, as where two solids touch: it is by
-    /// chance that the ray has not hit its own solid's back.
+    /// True if a back lies at a front that a ray has hit, or a front at a back, as where two solids
+    /// touch: which of them the ray has hit is chance.
     bool is_contact(const RaySpan& ray, const RayHit& hit) const;
 
-    /// Replaces a hit at a contact by the one beyond, which tells whether the ray leaves the
-    /// solids.
+    /// Replaces a front at a contact by the hit beyond: the back of the next solid tells that the
+    /// ray is still inside. Nothing beyond, as behind the wall of a room of sheets, tells nothing.
     void pass_contacts(RaySpan ray, RayHit& hit) const;
 
     /// Casts rays from the points left_.

@@ -60,7 +60,8 @@ void WorldLumels::place(const Scene& scene, const Lumels& lumels,
 
 bool WorldLumels::is_clear(std::size_t i, const RayScene& rays) const
 {
-    constexpr float kBelowRays = 0.5f;  // of the height at which rays start
+    constexpr float kBelowRays = 0.5f;  // of the least height at which rays start
+    constexpr float kAboveRays = 2.0f;  // of the most
     const WorldLumel& lumel = lumels_[i];
     if (!lumel.flat)
         return false;
@@ -70,9 +71,10 @@ bool WorldLumels::is_clear(std::size_t i, const RayScene& rays) const
             const glm::vec3 to_corner = facet->corner[k] - lumel.centre;
             across = std::max(across, glm::dot(to_corner, to_corner));
         }
-    return rays.is_clear_above(lumel.centre, lumel.normal,
-                               std::sqrt(across + lumel.size * lumel.size),
-                               kBelowRays * ray_offset_for(lumel.reach));
+    const float most = ray_offset_for(lumel.reach), least = std::min(most, lumel.ray_offset),
+                height = std::max(lumel.size, kAboveRays * most);
+    return rays.is_clear_above(lumel.centre, lumel.normal, std::sqrt(across + height * height),
+                               kBelowRays * least);
 }
 
 /// Transforms by instance.

@@ -22,8 +22,12 @@ constexpr std::uint32_t kWalksForLight = 64;
 constexpr std::uint32_t kMaxSteps = 24;  ///< steps per walk
 /// Dark sides are inside a solid if most rays from them are shorter [m]. Dark rooms are wider.
 constexpr float kThickest = 1.0f;
-/// Least share of the rays from a side that hit something in a room; outdoors fewer do.
-constexpr double kEnclosed = 0.9;
+/// Least share of the rays from a side that hit something in a room, where light may come in by a
+/// window, and in a dark room. Outdoors fewer do.
+constexpr double kInRoom = 0.75, kEnclosed = 0.9;
+/// Least share of the rays from a side of a dark room that hit another object: the inside of a
+/// closed solid is dark and wide, too.
+constexpr double kFurnished = 0.125;
 /// Walks from each lamp, which light the surfaces that they hit; fewer if there are many lamps.
 constexpr std::uint32_t kLampWalks = 256, kMinLampWalks = 16, kAllLampWalks = 1 << 16;
 constexpr std::uint32_t kLampSteps = 3;
@@ -115,6 +119,7 @@ struct Place {
 class DoubleSided {
 public:
     DoubleSided(const Scene& scene, const std::vector<TriangleOf>& chart)
+        : instance_(chart.empty() ? 0 : chart.front().instance)
     {
         for (const TriangleOf& at : chart) {
             if (!is_double_sided(scene, at))
@@ -125,6 +130,8 @@ public:
     }
 
     bool glows() const { return glows_; }
+
+    std::uint32_t instance() const { return instance_; }
 
     double area() const { return triangles_.area(); }  ///< [m²]
 
@@ -141,6 +148,7 @@ public:
     }
 
 private:
+    std::uint32_t instance_;
     TrianglesByArea triangles_;
     bool glows_ = false;
 };
@@ -324,22 +332,33 @@ public:
         if (sides_[chart].area() == 0.0)
             return found;
         std::array<Light, 2> light{};
-        std::array<Space, 2> space{};
-        for (const bool back : {false, true}) {
+        for (const bool back : {false, true})
             light[back] = on(chart, back);
-            space[back] = before(chart, back);
-            found.inner[back] = light[back] == Light::none && space[back] == Space::narrow;
-        }
+        for (const bool back : {false, true})
+            if (light[back] == Light::none)
+                found.inner[back] = space_at(chart, back).is_narrow();
         const auto lit = std::ranges::count(light, Light::enough);
-        // A hollow house is dark as well, but few look into it.
-        const bool is_between_rooms = space[0] == Space::room && space[1] == Space::room;
-        found.shows_both = lit == 2 || (lit == 1 && is_between_rooms);
+        const bool lit_side = light[1] == Light::enough;
+        found.shows_both = lit == 2 || (lit == 1 && space_at(chart, lit_side).is_room() &&
+                                        space_at(chart, !lit_side).is_dark_room());
         return found;
     }
 
 private:
     enum class Light { none, little, enough };
-    enum class Space { narrow, room, outside };
+    /// Shares of the rays from a side.
+    struct Space {
+        double near = 0.0;   ///< that hit something within kThickest
+        double hits = 0.0;   ///< that hit something
+        double other = 0.0;  ///< that hit another object
+
+        bool is_narrow() const { return near > 0.5; }
+        bool is_room() const { return !is_narrow() && hits >= kInRoom; }
+        bool is_dark_room() const
+        {
+            return !is_narrow() && hits >= kEnclosed && other >= kFurnished;
+        }
+    };
 
     Light on(std::size_t chart, bool back) const
     {
@@ -355,22 +374,29 @@ private:
         return lit == 0 ? Light::none : lit < enough ? Light::little : Light::enough;
     }
 
-    /// The space in front of a side.
-    Space before(std::size_t chart, bool back) const
+    /// In front of a side.
+    Space space_at(std::size_t chart, bool back) const
     {
-        std::uint32_t near = 0, hits = 0;
+        constexpr double kShare = 1.0 / kMinWalks;
+        Space space;
         for (std::uint32_t ray = 0; ray < kMinWalks; ++ray) {
             const Place at = sides_[chart].start(back, ray, kMinWalks);
             const std::uint32_t seed = seed_of(chart, back, ray);
+            const glm::vec3 direction = any_about(at.normal, seed);
             RayHit hit;
-            if (!rays_.closest(ray_out(at.position, any_about(at.normal, seed), seed), hit))
+            if (!rays_.closest(ray_out(at.position, direction, seed), hit))
                 continue;
-            ++hits;
-            near += hit.distance < kThickest;
+            space.hits += kShare;
+            space.near += hit.distance < kThickest ? kShare : 0.0;
+            // The floor that a solid stands on is at its own bottom.
+            const auto is_own = [&](const RayHit& at_hit) {
+                return at_hit.instance == sides_[chart].instance();
+            };
+            if (!is_own(hit) && !rays_.any_at(at.position + hit.distance * direction,
+                                              hit.ray_offset, direction, is_own))
+                space.other += kShare;
         }
-        return 2 * near > kMinWalks                    ? Space::narrow
-               : double(hits) >= kEnclosed * kMinWalks ? Space::room
-                                                       : Space::outside;
+        return space;
     }
 
     static std::uint32_t seed_of(std::size_t chart, bool back, std::uint32_t walk)

@@ -12,9 +12,10 @@ namespace lumel {
 
 /// Looks for light on both sides of double-sided charts [charts] by random walks from them. Both
 /// are shown if enough walks from each side find a lamp, the sky or an emissive surface, or if
-/// enough from one side do, and both sides look into rooms. A side is inside a solid if no walk
-/// finds light and most rays from it are shorter than 1 m. Lamps that are off count as on, since
-/// they may be switched on later. daylit: the sky counts as light whatever it is in the scene.
+/// enough from one side do, which faces a room, and the other faces a dark room. A side is inside a
+/// solid if no walk finds light and most rays from it are shorter than 1 m. Lamps that are off
+/// count as on, since they may be switched on later. daylit: the sky counts as light whatever it is
+/// in the scene.
 std::vector<ChartSides> light_on_sides(const Scene& scene, const RayScene& rays,
                                        std::span<const std::vector<TriangleOf>> charts,
                                        bool daylit = false);

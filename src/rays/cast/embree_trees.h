@@ -61,8 +61,9 @@ public:
     const std::vector<TracedPart>& parts() const { return parts_; }
     const TracedPart& part(const RTCHit& hit) const;
 
-    /// True if `is_one` says so of a triangle of a part whose box meets the sphere.
     using IsOne = std::function<bool(const TracedPart&, std::uint32_t triangle)>;
+    /// True if `is_one` says so of a triangle near a sphere [m]. It is asked of all that meet the
+    /// sphere, in any order, perhaps twice, and of some others.
     bool any_triangle(const glm::vec3& centre, float radius, const IsOne& is_one) const;
 
     /// Memory used by Embree [bytes].

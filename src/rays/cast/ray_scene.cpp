@@ -168,8 +168,12 @@ glm::vec3 tint_along(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
 using Triangle = std::array<glm::vec3, 3>;
 
 /// True if a triangle has a point within a distance of `point`.
-bool is_within(const Triangle& corner, const glm::vec3& point, float distance)
+bool is_within(Triangle corner, const glm::vec3& point, float distance)
 {
+    // From the nearest corner: the plane of a long sliver is known least from afar.
+    std::ranges::rotate(corner, std::ranges::min_element(corner, {}, [&](const glm::vec3& at) {
+                            return glm::distance(at, point);
+                        }));
     const glm::vec3 u = corner[1] - corner[0], v = corner[2] - corner[0], at = point - corner[0],
                     across = glm::cross(u, v);
     const float square = glm::dot(across, across), off = glm::dot(at, across);

@@ -99,6 +99,29 @@ TEST(Buried, TheFloorUnderBlocksThatTouchIs)
     }
 }
 
+/// Its faces coincide with a floor and a wall behind which nothing is.
+TEST(Buried, TheFloorUnderABlockInTheCornerOfARoomOfSheetsIs)
+{
+    std::vector<Quad> quads{floor_8x8()};
+    add_box(quads, {0, 0, 0}, {8, 3, 8}, bottomless, true);
+    add_box(quads, {0, 0, 2}, {3, 2, 6}, closed);
+    expect_buried_floor(buried(quads), 0, 3, 2, 6);
+}
+
+/// On a large ground rays from some points start below it.
+TEST(Buried, LumelsPartlyUnderAThinMarkingAreNot)
+{
+    for (const float from : {2.1f, 2.3f, 2.6f, 2.9f}) {
+        Quad ground = floor_8x8();
+        ground.edge_u.z = ground.edge_v.x = 100.0f;
+        ground.res_u = ground.res_v = 100;
+        const Quad marking{
+            .corner = {0.0f, 4e-4f, from}, .edge_u = {0, 0, 0.5f}, .edge_v = {100, 0, 0}};
+        for (const bool is : buried({ground, marking}))
+            EXPECT_FALSE(is) << from;
+    }
+}
+
 /// Their faces coincide like those of blocks that touch.
 TEST(Buried, TheFloorAmongWallsOfTwoFacesEachIsNot)
 {
