@@ -171,9 +171,9 @@ using Triangle = std::array<glm::vec3, 3>;
 bool is_within(Triangle corner, const glm::vec3& point, float distance)
 {
     // From the nearest corner: the plane of a long sliver is known least from afar.
-    std::ranges::rotate(corner, std::ranges::min_element(corner, {}, [&](const glm::vec3& at) {
-                            return glm::distance(at, point);
-                        }));
+    const auto nearest = std::ranges::min_element(
+        corner, {}, [&](const glm::vec3& at) { return glm::distance(at, point); });
+    std::rotate(corner.begin(), nearest, corner.end());
     const glm::vec3 u = corner[1] - corner[0], v = corner[2] - corner[0], at = point - corner[0],
                     across = glm::cross(u, v);
     const float square = glm::dot(across, across), off = glm::dot(at, across);
