@@ -109,7 +109,7 @@ TEST(Sides, HaveTexelsOfTheirOwnWhereLightReachesBoth)
     EXPECT_EQ(charts_with_own_back(void_outside, 0, kFirstOfBlock), none) << "none outside";
 }
 
-/// A sheet parts a room with a bulb from a dark one.
+/// A sheet separates a room with a bulb from a dark one.
 TEST(Sides, OfADarkRoomDoNotShowTheLightBehindItsWalls)
 {
     Scene scene = house_with(true, true, false);

@@ -80,14 +80,11 @@ void HiddenPoints::look_for_backs(std::span<const LumelPoint> points)
     }
     hits_.resize(rays_.size());
     look_.rays.closest(rays_, hits_);
-    const auto meets_back = [&](const auto& is_one) {
-        for (std::size_t r = 0; r < rays_.size(); ++r)
-            if (!std::isinf(hits_[r].distance) && is_one(r))
-                return true;
-        return false;
-    };
-    if (!meets_back([&](std::size_t r) { return is_back(hits_[r]); }) &&
-        !meets_back([&](std::size_t r) { return is_contact(rays_[r], hits_[r]); }))
+    bool meets_back = std::ranges::any_of(
+        hits_, [&](const RayHit& hit) { return !std::isinf(hit.distance) && is_back(hit); });
+    for (std::size_t r = 0; r < rays_.size() && !meets_back; ++r)
+        meets_back = !std::isinf(hits_[r].distance) && is_contact(rays_[r], hits_[r]);
+    if (!meets_back)
         return;
     std::array<bool, kCornersOfPiece> hidden{};
     in_doubt_.resize(points.size());
@@ -143,9 +140,11 @@ void HiddenPoints::find_shut_in(std::span<const LumelPoint> points, std::span<bo
                 if (*meets_contacts[p])
                     pass_contacts(rays_[r], hit);
             }
-            if (is_open(points[p].normal, rays_[r], hit) && !std::isinf(hit.distance))
+            if (std::isinf(hit.distance))
+                continue;
+            if (is_open(points[p].normal, rays_[r], hit))
                 fronts[p] |= 1u << direction;
-            else if (!meets_back[p] && is_back(hit))
+            else if (is_back(hit) && !meets_back[p])
                 meets_back[p] = !is_contact(rays_[r], hit);
         }
         std::erase_if(left_,

@@ -52,7 +52,7 @@ public:
     /// Sets the scene's current size, for lumels of unknown triangles that are placed from now on.
     void fit(const RayScene& rays);
 
-    /// True if nothing rises above a flat lumel within its size: all of its points see the same.
+    /// True if the lumel is flat and nothing rises above it within its size.
     bool is_clear(std::size_t i, const RayScene& rays) const;
 
     /// Updates some lumels to the current transforms of their instances.

@@ -189,7 +189,7 @@ std::optional<RoomFloor> floor_within(const SolveScene& scene, const FloorArea& 
     return found;
 }
 
-/// Removes points that surfaces part from the room. Returns how many.
+/// Removes points that surfaces separate from the room. Returns how many.
 std::size_t remove_apart(const SolveScene& scene, const FloorArea& room, double height,
                          const std::optional<FloorArea>& task, std::vector<AreaPoints>& areas)
 {

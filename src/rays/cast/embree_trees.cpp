@@ -26,13 +26,11 @@ void place_vertices(TracedPart& part, float* vertices)
 
 std::vector<float> longest_edges(const TracedPart& part)
 {
-    const std::vector<std::uint32_t>& indices = part.source->indices;
-    const auto corner = [&](std::size_t k) {
-        return part.to_world(part.source->positions[indices[k]]);
-    };
-    std::vector<float> longest(indices.size() / 3);
-    for (std::size_t t = 0; t < longest.size(); ++t)
-        longest[t] = longest_edge(corner(3 * t), corner(3 * t + 1), corner(3 * t + 2));
+    std::vector<float> longest;
+    for (std::uint32_t t = 0; t < part.source->indices.size() / 3; ++t) {
+        const auto [a, b, c] = part.triangle(t);
+        longest.push_back(longest_edge(a, b, c));
+    }
     return longest;
 }
 

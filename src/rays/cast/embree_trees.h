@@ -22,7 +22,6 @@ struct TracedPart {
     std::uint32_t number = 0;         ///< index among all parts
     float winding = 1.0f;             ///< -1: mirrored instance, clockwise vertices at the front
     std::vector<float> longest_edge;  ///< [triangles] world [m]; motion is rigid
-
     const float* vertices = nullptr;  ///< Embree's, world [m]
 
     /// Corners of a triangle, world [m].

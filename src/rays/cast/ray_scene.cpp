@@ -427,9 +427,7 @@ bool RayScene::any_at(const glm::vec3& point, float radius, const glm::vec3& dir
         const Triangle corner = part.triangle(triangle);
         const glm::vec3 across =
             part.winding * glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-        const float off = glm::dot(across, point - corner[0]);
-        return off * off <= radius * radius * glm::dot(across, across) &&
-               is_one({.instance = part.instance,
+        return is_one({.instance = part.instance,
                        .primitive = part.primitive,
                        .triangle = triangle,
                        .front = glm::dot(across, direction) < 0.0f}) &&
@@ -477,10 +475,7 @@ RayHit RayScene::hit(std::size_t number, std::uint32_t triangle, const glm::vec2
                      float distance, const glm::vec3& direction) const
 {
     const TracedPart& part = trees_->parts()[number];
-    glm::vec3 corner[3];
-    for (std::size_t k = 0; k < 3; ++k)
-        corner[k] = part.to_world(
-            part.source->positions[part.source->indices[3 * std::size_t(triangle) + k]]);
+    const Triangle corner = part.triangle(triangle);
     const glm::vec3 normal =
         part.winding * glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
     return {.instance = part.instance,

@@ -108,7 +108,8 @@ TEST(Buried, TheFloorUnderABlockInTheCornerOfARoomOfSheetsIs)
     expect_buried_floor(buried(quads), 0, 3, 2, 6);
 }
 
-/// On a large ground rays from some points start below it.
+/// It lies 0.4 mm above a ground of 100 m: above the start of rays that tell what is buried, below
+/// that of rays from cell to cell.
 TEST(Buried, LumelsPartlyUnderAThinMarkingAreNot)
 {
     for (const float from : {2.1f, 2.3f, 2.6f, 2.9f}) {
