@@ -27,13 +27,19 @@ struct TracedLinks {
         }
     }
 
-    /// Adds a round of links with other random numbers.
+    /// Adds a round of links with other random numbers. guide: the same in all rounds after the
+    /// first.
     void trace(std::uint16_t rays, const RayGuide* guide = nullptr)
     {
         links.rounds.emplace_back(tracer.blocks());
         const std::vector<std::uint16_t> each(work.order.size(), rays);
-        LinkTracer::Sending sending{each, kLinkStream + ++streams, nullptr, guide};
-        tracer.trace(0, tracer.blocks(), sending, links);
+        const auto round = std::uint32_t(links.rounds.size() - 1);
+        // A guide may follow the first round, whose rays are uniform.
+        const RayGuide none;
+        const RayGuide* const keeps_bins = round == 0 && !guide ? &none : guide;
+        tracer.trace(0, tracer.blocks(), {each, round, 0, nullptr, keeps_bins}, links);
+        if (guide)
+            tracer.weigh(*guide, 0, links);
         source = find_source_term(work, parts, numbers, {work, parts, numbers, direct}, links);
     }
 
@@ -45,7 +51,6 @@ struct TracedLinks {
     LinkSolver solver;
     LinkTable links;
     SourceTerm source;
-    std::uint32_t streams = 0;  ///< of random numbers, so far
 };
 
 }  // namespace lumel::bench

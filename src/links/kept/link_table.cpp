@@ -8,6 +8,9 @@
 namespace lumel {
 namespace {
 
+/// More than any ray of a guide weighs.
+constexpr float kMaxWeight = 1e3f;
+
 bool fits(std::span<const NearShare> shares, std::size_t near, const LinkNumbers& numbers,
           std::size_t lamps)
 {
@@ -23,7 +26,7 @@ bool fits(std::span<const NearShare> shares, std::size_t near, const LinkNumbers
 }
 
 bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const SubLumels& parts,
-          const LinkNumbers& numbers, std::size_t lamps)
+          const LinkNumbers& numbers, std::size_t lamps, bool has_bins)
 {
     if (block.rays.size() != lumels.size())
         return false;
@@ -47,8 +50,9 @@ bool fits(const LinkBlock& block, std::span<const std::uint32_t> lumels, const S
         near += end.number() == LinkNumbers::kNear ? 1 : 0;
     return near == block.near.size() && near == block.near_light.size() &&
            fits(block.shares, near, numbers, lamps) &&
-           (block.probabilities.empty() || block.probabilities.size() == slots) &&
-           std::ranges::find(block.probabilities, 0) == block.probabilities.end() &&
+           (block.bins.size() == slots || (block.bins.empty() && !has_bins)) &&
+           (block.weights.empty() || block.weights.size() == slots) &&
+           std::ranges::all_of(block.weights, [](float w) { return w > 0.0f && w < kMaxWeight; }) &&
            std::all_of(block.ends.begin(), block.ends.end(), is_known) &&
            std::all_of(block.from.begin(), block.from.end(),
                        [](std::uint8_t cell) { return cell <= kNoCell; });
@@ -71,15 +75,15 @@ std::size_t LinkTable::bytes() const
     for (const std::vector<LinkBlock>& blocks : rounds)
         for (const LinkBlock& block : blocks)
             bytes += block.rays.size() * sizeof(std::uint16_t) +
-                     block.ends.size() * sizeof(LinkEnd) + block.from.size() +
-                     block.probabilities.size() * sizeof(std::uint16_t) +
+                     block.ends.size() * sizeof(LinkEnd) + block.from.size() + block.bins.size() +
+                     block.weights.size() * sizeof(float) +
                      block.near.size() * (sizeof(NearLink) + sizeof(NearLight)) +
                      block.shares.size() * sizeof(NearShare);
     return bytes;
 }
 
 bool LinkTable::fits(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-                     std::size_t traced, std::size_t lamps) const
+                     std::size_t traced, std::size_t lamps, bool has_bins) const
 {
     for (std::size_t r = 0; r < rounds.size(); ++r) {
         if (rounds[r].size() != blocks_of(work))
@@ -89,7 +93,7 @@ bool LinkTable::fits(const LinkWork& work, const SubLumels& parts, const LinkNum
             const auto lumels = is_traced && is_own(work.ranks, b)
                                     ? lumels_of(work, b)
                                     : std::span<const std::uint32_t>();
-            if (!lumel::fits(rounds[r][b], lumels, parts, numbers, lamps))
+            if (!lumel::fits(rounds[r][b], lumels, parts, numbers, lamps, has_bins))
                 return false;
         }
     }

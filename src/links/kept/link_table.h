@@ -11,7 +11,6 @@
 
 #include "atlas/cells/cells.h"
 #include "links/kept/near_weight.shared.h"
-#include "links/kept/ray_guide.h"
 
 namespace lumel {
 
@@ -106,14 +105,14 @@ struct LinkBlock {
     std::vector<NearLink> near;         ///< by slot
     std::vector<NearLight> near_light;  ///< of these
     std::vector<NearShare> shares;      ///< by near link; empty unless lamps are kept apart
-    /// [slots] Of the directions, see RayGuide; empty: all are equal.
-    std::vector<std::uint16_t> probabilities;
-    std::uint64_t traced = 0;  ///< rays; the ends of others were known
+    std::vector<std::uint8_t> bins;     ///< [slots] of RayGuide; empty unless rays may be guided
+    std::vector<float> weights;         ///< [slots] of rays, see RayGuide; empty: all are 1
+    std::uint64_t traced = 0;           ///< rays; the ends of others were known
 
     template <class Archive>
     void state(Archive& archive)
     {
-        archive(rays, ends, from, near, near_light, shares, probabilities, traced);
+        archive(rays, ends, from, near, near_light, shares, bins, weights, traced);
     }
 };
 
@@ -129,13 +128,10 @@ struct LinkRow {
     std::span<const NearLight> near_light;  ///< of these
     std::span<const NearShare> shares;      ///< of these
     std::uint32_t first_near;               ///< index of the first in its block
-    const std::uint16_t* probabilities;     ///< [ends] or null: all are equal
+    const float* weights;                   ///< [ends] or null: all are 1
 
     /// Weight of ray k, as which its light counts; 1 on average.
-    float weight(std::size_t k) const
-    {
-        return probabilities ? RayGuide::weight(probabilities[k]) : 1.0f;
-    }
+    float weight(std::size_t k) const { return weights ? weights[k] : 1.0f; }
 
     /// Number of the sub-lumel, in its lumel, that ray k leaves.
     std::uint32_t leaves(const SubLumels& parts, std::size_t lumel, std::size_t k) const
@@ -159,9 +155,9 @@ public:
                     .near_light = {},
                     .shares = {},
                     .first_near = near_,
-                    .probabilities = nullptr};
-        if (!block_->probabilities.empty())
-            row.probabilities = block_->probabilities.data() + slot_;
+                    .weights = nullptr};
+        if (!block_->weights.empty())
+            row.weights = block_->weights.data() + slot_;
         if (has_hidden) {
             row.from = block_->from.data() + from_;
             from_ += std::uint32_t(rays);
@@ -196,8 +192,9 @@ struct LinkTable {
     std::size_t bytes() const;
     /// True if all indices are valid: of lumels in the order of work, of sub-lumels and of numbers.
     /// traced: blocks of the last round that are not empty, of this rank's. lamps: kept apart.
+    /// has_bins: of all rays.
     bool fits(const LinkWork& work, const SubLumels& parts, const LinkNumbers& numbers,
-              std::size_t traced, std::size_t lamps) const;
+              std::size_t traced, std::size_t lamps, bool has_bins) const;
 };
 
 }  // namespace lumel

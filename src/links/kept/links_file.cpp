@@ -34,8 +34,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
-// 9: has the passes of direct light
-constexpr std::uint64_t kVersion = 9;
+// 10: rays and guides of each solution
+constexpr std::uint64_t kVersion = 10;
 constexpr std::uint32_t kMaxSide = 65536;  ///< side of an atlas [texels]
 constexpr std::uint32_t kWord = 64;        ///< [bits]
 
@@ -52,16 +52,17 @@ std::uint32_t bits_of(const StoredLinks& kept)
     return std::uint32_t(std::bit_width(kept.numbers().count() - 1)) + LinkEnd::kCellBits;
 }
 
-std::uint64_t links_in(const StoredLinks::Round& round)
+std::uint64_t links_in(const std::vector<std::uint16_t>& rays)
 {
-    return first_rays(round.rays).back();
+    return first_rays(rays).back();
 }
 
 std::uint64_t words_for(const StoredLinks& kept)
 {
     std::uint64_t links = 0;
     for (const StoredLinks::Round& round : kept.rounds)
-        links += kSolutions * links_in(round);
+        for (const std::vector<std::uint16_t>& rays : round.rays)
+            links += links_in(rays);
     return (links * bits_of(kept) + kWord - 1) / kWord;
 }
 
@@ -88,8 +89,9 @@ bool unpack(const Words& words, StoredLinks& kept)
     const std::uint64_t mask = (std::uint64_t(1) << bits) - 1;
     std::uint64_t at = 0;
     for (StoredLinks::Round& round : kept.rounds)
-        for (std::vector<LinkEnd>& ends : round.ends) {
-            ends.resize(links_in(round));
+        for (std::size_t k = 0; k < kSolutions; ++k) {
+            std::vector<LinkEnd>& ends = round.ends[k];
+            ends.resize(links_in(round.rays[k]));
             for (LinkEnd& end : ends) {
                 std::uint64_t link = words[at / kWord] >> at % kWord;
                 if (at % kWord + bits > kWord)
@@ -129,7 +131,10 @@ bool is_sound(const StoredLinks::StoredTexcoords& sheet, const StoredLinks& kept
 /// Box coordinates may be anything: they are compared only.
 bool is_sound(const StoredLinks::Round& round, const StoredLinks& kept)
 {
-    return round.rays.size() == kept.lumels.size() && round.mean > 0.0 &&
+    const auto is_of_all = [&](const std::vector<std::uint16_t>& rays) {
+        return rays.size() == kept.lumels.size();
+    };
+    return std::ranges::all_of(round.rays, is_of_all) && round.mean > 0.0 &&
            round.mean <= double(std::numeric_limits<std::uint16_t>::max());
 }
 

@@ -40,11 +40,11 @@ Bins smooth(const Bins& in)
 
 }  // namespace
 
-RayGuide::Table RayGuide::uniform()
+RayGuide::OfSolution RayGuide::uniform()
 {
-    Table table{{}, 1.0f};
-    table.probabilities.fill(std::uint16_t(kUniform));
-    return table;
+    OfSolution uniform;
+    uniform.probabilities.fill(std::uint16_t(kUniform));
+    return uniform;
 }
 
 std::uint32_t RayGuide::bin_of(const glm::vec2& point)
@@ -55,15 +55,15 @@ std::uint32_t RayGuide::bin_of(const glm::vec2& point)
 
 bool RayGuide::fits(std::size_t lumels) const
 {
-    const auto is_sound = [](const Table& table) {
-        const Probabilities& of = table.probabilities;
-        return std::accumulate(of.begin(), of.end(), 0u) == kOne &&
-               std::ranges::find(of, 0) == of.end() && table.gain >= 1.0f &&
-               table.gain <= float(kMaxGain);
+    const auto is_sound = [](const OfSolution& of) {
+        return std::accumulate(of.probabilities.begin(), of.probabilities.end(), 0u) == kOne &&
+               std::ranges::find(of.probabilities, 0) == of.probabilities.end() &&
+               of.gain >= 1.0f && of.gain <= float(kMaxGain);
     };
+    const auto are_sound = [&](const Table& table) { return std::ranges::all_of(table, is_sound); };
     return group.size() == (tables.empty() ? 0 : lumels) &&
            std::ranges::all_of(group, [&](std::uint32_t g) { return g < tables.size(); }) &&
-           std::ranges::all_of(tables, is_sound);
+           std::ranges::all_of(tables, are_sound);
 }
 
 GuidedDraw::GuidedDraw(const RayGuide::Probabilities& probabilities) : probabilities_(probabilities)
@@ -130,46 +130,43 @@ double GuideMoments::variance(std::size_t k, const RayGuide::Probabilities& prob
 {
     double square = 0.0;
     for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
-        square += square_[k][b] * double(RayGuide::weight(probabilities[b]));
+        square += square_[k][b] * double(RayGuide::weight(probabilities[b], 0.0f, 1.0f));
     const double mean = light_[k] / rays_[k];
     return square / rays_[k] - mean * mean;
 }
 
+/// For the rays of a solution: each of the others tells what the other's rays gain.
+RayGuide::OfSolution GuideMoments::find(std::size_t i, std::size_t j) const
+{
+    const RayGuide::OfSolution uniform = RayGuide::uniform();
+    const double now = variance(i, uniform.probabilities) + variance(j, uniform.probabilities);
+    const double squares =
+        std::pow(light_[i] / rays_[i], 2.0) + std::pow(light_[j] / rays_[j], 2.0);
+    if (!(light_[i] > 0.0) || !(light_[j] > 0.0) || now < kUneven * squares)
+        return uniform;
+    Bins both = square_[i];
+    for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
+        both[b] += square_[j][b];
+    RayGuide::OfSolution best = uniform;
+    double least = kHelps * now;
+    for (const double share : kShares) {
+        const double guided = variance(i, probabilities_for(square_[j], share)) +
+                              variance(j, probabilities_for(square_[i], share));
+        if (guided > 0.0 && guided < least) {
+            least = guided;
+            best = {probabilities_for(both, share), float(std::min(now / guided, kMaxGain))};
+        }
+    }
+    return best;
+}
+
 std::optional<RayGuide::Table> GuideMoments::find() const
 {
-    Bins all{};
-    for (std::size_t k = 0; k < kSolutions; ++k) {
-        if (!(light_[k] > 0.0))
-            return std::nullopt;
-        for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
-            all[b] += square_[k][b];
-    }
-    const RayGuide::Probabilities uniform = RayGuide::uniform().probabilities;
-    double now = 0.0, squares = 0.0;
-    for (std::size_t k = 0; k < kSolutions; ++k) {
-        now += variance(k, uniform);
-        squares += std::pow(light_[k] / rays_[k], 2.0);
-    }
-    if (now < kUneven * squares)
-        return std::nullopt;
-    double least = kHelps * now;
-    double best = 0.0;
-    for (const double share : kShares) {
-        double sum = 0.0;
-        for (std::size_t k = 0; k < kSolutions; ++k) {
-            Bins others = all;
-            for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
-                others[b] = std::max(others[b] - square_[k][b], 0.0);
-            sum += variance(k, probabilities_for(others, share));
-        }
-        if (sum > 0.0 && sum < least) {
-            least = sum;
-            best = share;
-        }
-    }
-    if (!(best > 0.0))
-        return std::nullopt;
-    return RayGuide::Table{probabilities_for(all, best), float(std::min(now / least, kMaxGain))};
+    RayGuide::Table table;
+    for (std::size_t k = 0; k < kSolutions; ++k)
+        table[k] = find((k + 1) % kSolutions, (k + 2) % kSolutions);
+    const auto is_uniform = [](const RayGuide::OfSolution& of) { return of.gain == 1.0f; };
+    return std::ranges::all_of(table, is_uniform) ? std::nullopt : std::optional(table);
 }
 
 }  // namespace lumel

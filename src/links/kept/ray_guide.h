@@ -1,11 +1,13 @@
 #pragma once
 // Guided rays: lumels send more rays to where earlier ones found the most light [MGN17], drawn by
-// their random numbers [GBBE18]; these rays count less, so that expected values remain.
+// their random numbers [GBBE18]; these rays count less, so that expected values remain [VG95].
 //
 // [MGN17]  T. Müller, M. Gross, J. Novák. Practical Path Guiding for Efficient Light-Transport
 //          Simulation. EGSR 2017.
 // [GBBE18] J. Guo, P. Bauszat, J. Bikker, E. Eisemann. Primary Sample Space Path Guiding. EGSR
 //          Experimental Ideas & Implementations 2018.
+// [VG95]   E. Veach, L. J. Guibas. Optimally Combining Sampling Techniques for Monte Carlo
+//          Rendering. SIGGRAPH 1995.
 
 #include <array>
 #include <cstdint>
@@ -20,7 +22,7 @@ namespace lumel {
 
 /// Probabilities of the directions in which groups of neighbouring lumels send rays: of points of
 /// the unit square, from which by_cosine() makes directions, in kSide × kSide bins. Group 0 draws
-/// uniformly. Empty: all lumels do.
+/// uniformly, and so do all lumels in the first round. Empty: in all rounds.
 struct RayGuide {
     static constexpr std::uint32_t kSide = 16, kBins = kSide * kSide;
     /// A probability of 1, and that of each bin if all are equal.
@@ -28,18 +30,37 @@ struct RayGuide {
 
     using Probabilities = std::array<std::uint16_t, kBins>;  ///< [1 / kOne] each at least 1
 
-    struct Table {
+    struct OfSolution {
         Probabilities probabilities;
-        float gain;  ///< variance of a uniform ray / of a guided one
+        float gain = 1.0f;  ///< variance of a uniform ray / of a guided one; 1: all are uniform
+
+        template <class Archive>
+        void state(Archive& archive)
+        {
+            archive(probabilities, gain);
+        }
     };
+    /// Each learnt from the other solutions: weights and numbers of rays that depend on a
+    /// solution's own light would change the result.
+    using Table = std::array<OfSolution, kSolutions>;
 
     std::vector<std::uint32_t> group;  ///< [N]
     std::vector<Table> tables;         ///< [groups]
 
-    /// Equal probabilities: the table of group 0.
-    static Table uniform();
-    /// Weight of a ray to a bin of that probability.
-    static float weight(std::uint16_t probability) { return float(kUniform) / float(probability); }
+    const OfSolution& of(std::size_t lumel, std::size_t solution) const
+    {
+        return tables[group[lumel]][solution];
+    }
+
+    static OfSolution uniform();
+    /// The table of group 0.
+    static Table all_uniform() { return {uniform(), uniform(), uniform()}; }
+    /// Weight of a ray to a bin of that probability, of `all` rays of which the first `uniform` are
+    /// uniform: by the balance heuristic [VG95], as if all were drawn with their mean density.
+    static float weight(std::uint16_t probability, float uniform, float all)
+    {
+        return all / (uniform + (all - uniform) * float(probability) / float(kUniform));
+    }
     /// Bin of a point in the unit square.
     static std::uint32_t bin_of(const glm::vec2& point);
 
@@ -65,7 +86,6 @@ public:
     };
     /// Uniform points become points of that density; nets stay stratified.
     Drawn operator()(const glm::vec2& uniform) const;
-    std::uint16_t probability(std::uint32_t bin) const { return probabilities_[bin]; }
 
 private:
     const RayGuide::Probabilities& probabilities_;
@@ -78,13 +98,14 @@ public:
     /// Adds a ray. light: along it.
     void add(std::size_t solution, std::uint32_t bin, double light);
 
-    /// The table with the least variance of rays of another solution than those that it is learnt
-    /// from; empty if uniform rays are as good.
+    /// The tables with the least variance of rays of another solution than those that they are
+    /// learnt from; empty if uniform rays are as good.
     std::optional<RayGuide::Table> find() const;
 
 private:
     using Bins = std::array<double, RayGuide::kBins>;
 
+    RayGuide::OfSolution find(std::size_t one, std::size_t other) const;
     static RayGuide::Probabilities probabilities_for(const Bins& square, double share);
     double variance(std::size_t solution, const RayGuide::Probabilities& probabilities) const;
 

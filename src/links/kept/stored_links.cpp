@@ -42,16 +42,17 @@ StoredLinks::Round renumbered(const StoredLinks::Round& round, const Renumbering
                               const std::vector<std::uint32_t>& numbers)
 {
     const auto usual = std::uint16_t(std::lround(round.mean));
-    StoredLinks::Round result{.mean = round.mean,
-                              .rays = std::vector<std::uint16_t>(now.lumels_now, usual)};
-    for (std::size_t i = 0; i < now.lumels.size(); ++i)
-        if (now.lumels[i] != Renumbering::kNotThere)
-            result.rays[now.lumels[i]] = round.rays[i];
-    const std::vector<std::size_t> from = first_rays(round.rays), to = first_rays(result.rays);
+    StoredLinks::Round result{.mean = round.mean};
     for (std::size_t k = 0; k < kSolutions; ++k) {
+        result.rays[k].assign(now.lumels_now, usual);
+        for (std::size_t i = 0; i < now.lumels.size(); ++i)
+            if (now.lumels[i] != Renumbering::kNotThere)
+                result.rays[k][now.lumels[i]] = round.rays[k][i];
+        const std::vector<std::size_t> from = first_rays(round.rays[k]),
+                                       to = first_rays(result.rays[k]);
         result.ends[k].assign(to.back(), kToTrace);
         for (std::size_t i = 0; i < now.lumels.size(); ++i)
-            for (std::size_t n = 0; now.lumels[i] != Renumbering::kNotThere && n < round.rays[i];
+            for (std::size_t n = 0; now.lumels[i] != Renumbering::kNotThere && n < round.rays[k][i];
                  ++n) {
                 const LinkEnd end = round.ends[k][from[i] + n];
                 const std::uint32_t number = numbers[end.number()];

@@ -12,6 +12,7 @@
 #include "base/core/box.h"
 #include "links/direct/solutions.h"
 #include "links/kept/link_table.h"
+#include "links/kept/ray_guide.h"
 
 namespace lumel {
 
@@ -23,10 +24,13 @@ enum class ErrorOf : std::uint8_t { all, dark, eye, chart };
 /// Independent of lamps, sky, colours and emission; only guide, numbers of rays and passes follow
 /// the light of the bake.
 struct StoredLinks {
+    /// Rays of each lumel in a round [solutions][N].
+    using RayCounts = std::array<std::vector<std::uint16_t>, kSolutions>;
+
     /// Rays traced in one round of a bake.
     struct Round {
-        double mean = 0.0;                ///< rays per lumel in each solution
-        std::vector<std::uint16_t> rays;  ///< [N] in each solution
+        double mean = 0.0;  ///< rays per lumel in each solution
+        RayCounts rays;
         /// [solutions][rays of all lumels] The numbers are those of LinkNumbers(I, N), with lumels
         /// in place of sub-lumels. LinkNumbers::kNear: to be traced again.
         std::array<std::vector<LinkEnd>, kSolutions> ends;

@@ -9,8 +9,7 @@
 namespace lumel {
 
 /// Dimension pairs of a ray's random numbers; each reflection uses kPerReflection more.
-inline constexpr std::uint32_t kOriginPair = 0, kPassPair = 2, kFirstReflection = 3,
-                               kPerReflection = 3;
+inline constexpr std::uint32_t kPassPair = 2, kFirstReflection = 3, kPerReflection = 3;
 
 /// Hits closer than this many sides can be on a sliver that the lumel's cells do not represent, as
 /// in a gap between two walls: light is looked up in a cell visible from the hit, or not at all.
@@ -69,11 +68,11 @@ struct LinkTracer::SkyRay {
 struct LinkTracer::RayBatch {
     // Results, in slots of the batch.
     std::vector<std::uint32_t> lumels;
-    std::vector<LumelSamples> samples;         ///< [lumels] of their rays
-    std::vector<std::uint32_t> slots_before;   ///< [lumels + 1]
-    std::vector<LinkEnd> ends;                 ///< [slots]
-    std::vector<std::uint8_t> from;            ///< [slots] cells that the rays leave
-    std::vector<std::uint16_t> probabilities;  ///< [slots] of guided directions
+    std::vector<LumelSamples> samples;        ///< [lumels] of their rays
+    std::vector<std::uint32_t> slots_before;  ///< [lumels + 1]
+    std::vector<LinkEnd> ends;                ///< [slots]
+    std::vector<std::uint8_t> from;           ///< [slots] cells that the rays leave
+    std::vector<std::uint8_t> bins;           ///< [slots] of directions that may be guided
     std::vector<SkyRay> sky;
     std::vector<Path> paths;        ///< by slot
     std::vector<PathShare> shares;  ///< of paths; empty unless lamps are kept apart
@@ -106,7 +105,7 @@ struct LinkTracer::RayBatch {
         slots_before.assign(1, 0);
         ends.clear();
         from.clear();
-        probabilities.clear();
+        bins.clear();
         sky.clear();
         paths.clear();
         shares.clear();

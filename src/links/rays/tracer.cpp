@@ -44,7 +44,7 @@ LinkTracer::LinkTracer(const LinkWork& work, const SubLumels& parts, const LinkN
 
 std::span<const LinkEnd> LinkTracer::Known::of(std::size_t i, std::size_t rays) const
 {
-    const bool fits = !changes.all && !changes.starts[i] && round.rays[i] == rays;
+    const bool fits = !changes.all && !changes.starts[i] && round.rays[solution][i] == rays;
     return fits ? std::span(round.ends[solution]).subspan(first_rays[i], rays)
                 : std::span<const LinkEnd>();
 }
@@ -70,30 +70,37 @@ bool LinkTracer::may_meet_moved(const RaySpan& ray, const LinkChanges& changes) 
         });
 }
 
+/// Random numbers of the rays that lumel i sends in a round.
+LumelSamples LinkTracer::samples_of(std::uint32_t i, std::uint32_t round, std::uint32_t solution,
+                                    std::size_t rays) const
+{
+    return {work_.lumels()[i], std::uint32_t(work_.scene.lumels.width),
+            PathSamples::hash(seed_, stream(round, solution)), std::uint32_t(rays)};
+}
+
 /// Adds the rays of lumel i.
 void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) const
 {
-    const Lumel& lumel = work_.lumels()[i];
-    const auto width = std::uint32_t(work_.scene.lumels.width);
     const std::uint32_t rays = work_.is_buried(i) ? 0u : sending.rays[i];
-    const LumelSamples own(lumel, width, PathSamples::hash(seed_, sending.stream), rays);
+    const LumelSamples own = samples_of(i, sending.round, sending.solution, rays);
     std::optional<CosineDraw> shared;
     if (sending.shared)
         shared.emplace(*sending.shared);
     const std::span<const LinkEnd> known =
         sending.known ? sending.known->of(i, rays) : std::span<const LinkEnd>();
-    std::optional<GuidedDraw> guided;
-    if (sending.guide)
-        guided.emplace(sending.guide->tables[sending.guide->group[i]].probabilities);
+    std::optional<GuidedDraw> draw;
+    if (sending.guide && sending.round > 0)
+        draw.emplace(sending.guide->of(i, sending.solution).probabilities);
     std::optional<SeenCells> seen;  // made for the first ray that needs it
     glm::vec3 axis(0.0f);
     glm::mat3 frame(0.0f);
     for (std::uint32_t k = 0; k < rays; ++k) {
         const PathSamples samples = own[k];
         std::optional<GuidedDraw::Drawn> drawn;
-        if (guided) {
-            drawn = (*guided)(samples.stratified(kLinkDirectionPair));
-            wave.probabilities.push_back(guided->probability(drawn->bin));
+        if (sending.guide) {
+            const glm::vec2 uniform = samples.stratified(kLinkDirectionPair);
+            drawn = draw ? (*draw)(uniform) : GuidedDraw::Drawn{uniform, RayGuide::bin_of(uniform)};
+            wave.bins.push_back(std::uint8_t(drawn->bin));
         }
         std::optional<LinkEnd> end = known.empty() ? std::nullopt : still(known[k], *sending.known);
         const bool is_sky = end && end->number() == LinkNumbers::kSky;
@@ -299,18 +306,13 @@ void LinkTracer::keep(RayBatch& wave, std::size_t first, LinkTable& into) const
             }
         }
         for (; sky != wave.sky.end() && sky->slot < end; ++sky)
-            into.sky[parts_.part(i, wave.from[sky->slot])] +=
-                (wave.probabilities.empty() ? 1.0f
-                                            : RayGuide::weight(wave.probabilities[sky->slot])) *
-                sky->light;
+            into.sky[parts_.part(i, wave.from[sky->slot])] += sky->light;
         if (parts_.has_hidden(i))
             block.from.insert(block.from.end(), wave.from.begin() + begin, wave.from.begin() + end);
+        if (!wave.bins.empty())
+            block.bins.insert(block.bins.end(), wave.bins.begin() + begin, wave.bins.begin() + end);
         block.rays.push_back(std::uint16_t(end - begin));
         block.ends.insert(block.ends.end(), wave.ends.begin() + begin, wave.ends.begin() + end);
-        if (!wave.probabilities.empty())
-            block.probabilities.insert(block.probabilities.end(),
-                                       wave.probabilities.begin() + begin,
-                                       wave.probabilities.begin() + end);
     }
 }
 
@@ -377,10 +379,7 @@ void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sendi
         block.near.shrink_to_fit();
         block.near_light.shrink_to_fit();
         block.shares.shrink_to_fit();
-        block.probabilities.shrink_to_fit();
-        const auto is_uniform = [](std::uint16_t one) { return one == RayGuide::kUniform; };
-        if (std::ranges::all_of(block.probabilities, is_uniform))
-            block.probabilities = std::vector<std::uint16_t>();  // frees them
+        block.bins.shrink_to_fit();
     }
 }
 

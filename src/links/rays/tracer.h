@@ -14,6 +14,7 @@
 #include "links/direct/direct.h"
 #include "links/kept/link_changes.h"
 #include "links/kept/link_table.h"
+#include "links/kept/ray_guide.h"
 #include "links/rays/shared_directions.h"
 #include "rays/paths/samples.h"
 
@@ -22,8 +23,8 @@ namespace lumel {
 /// Random streams: shared directions, sub-lumels, direct light, and links of the solutions.
 inline constexpr std::uint32_t kSharedStream = 0, kPartStream = 1, kDirectStream = 2,
                                kLinkStream = 3;
-/// Dimension pair of a ray's direction.
-inline constexpr std::uint32_t kLinkDirectionPair = 1;
+/// Dimension pairs of a ray's origin and direction.
+inline constexpr std::uint32_t kOriginPair = 0, kLinkDirectionPair = 1;
 
 /// Traces rays from lumels until they hit a sub-lumel.
 class LinkTracer {
@@ -40,7 +41,7 @@ public:
     struct Known {
         const LinkChanges& changes;
         const StoredLinks::Round& round;
-        const std::vector<std::size_t>& first_rays;  ///< of the round, see first_rays()
+        const std::vector<std::size_t>& first_rays;  ///< of the solution, see first_rays()
         std::uint32_t solution;
 
         /// Ends of a lumel's `rays` rays, or empty if all are to be traced.
@@ -48,15 +49,26 @@ public:
     };
     /// Rays to trace.
     struct Sending {
-        const std::vector<std::uint16_t>& rays;  ///< [N]; powers of two stratify best
-        std::uint32_t stream;                    ///< random stream
-        const SharedDirections* shared;          ///< null: every lumel has its own directions
-        const RayGuide* guide = nullptr;         ///< null: rays are uniform
-        std::optional<Known> known = {};         ///< traces only what can have changed
+        const std::vector<std::uint16_t>& rays;     ///< [N]; powers of two stratify best
+        std::uint32_t round, solution;              ///< random numbers differ
+        const SharedDirections* shared = nullptr;   ///< null: every lumel has its own directions
+        const RayGuide* guide = nullptr;            ///< for later rounds; null: no bins are kept
+        std::optional<Known> known = std::nullopt;  ///< traces only what can have changed
     };
     /// Traces blocks [first, last) into the last round of `into`; of several ranks each traces its
-    /// own.
+    /// own. The rays of all rounds weigh as before, those of the last one 1.
     void trace(std::size_t first, std::size_t last, const Sending& sending, LinkTable& into) const;
+    /// Weighs the rays of all rounds of a solution, of which the guide drew those after the first.
+    /// All have bins. Of several ranks each weighs its own.
+    void weigh(const RayGuide& guide, std::uint32_t solution, LinkTable& links) const;
+    /// Of random numbers.
+    static std::uint32_t stream(std::uint32_t round, std::uint32_t solution)
+    {
+        return kLinkStream + std::uint32_t(kSolutions) * round + solution;
+    }
+    /// Random numbers of the rays that a lumel sends in a round.
+    LumelSamples samples_of(std::uint32_t lumel, std::uint32_t round, std::uint32_t solution,
+                            std::size_t rays) const;
 
 private:
     struct Landing;
@@ -66,6 +78,10 @@ private:
     struct SkyRay;
     struct RayBatch;
 
+    void weigh_block(std::size_t block, const RayGuide& guide, std::uint32_t solution,
+                     LinkTable& links) const;
+    void sum_sky(std::uint32_t lumel, std::span<const LinkRow> rows, const RayGuide& guide,
+                 std::uint32_t solution, std::vector<glm::vec3>& sky) const;
     void add(std::uint32_t lumel, const Sending& sending, RayBatch& wave) const;
     std::optional<LinkEnd> still(LinkEnd stored, const Known& known) const;
     bool may_meet_moved(const RaySpan& ray, const LinkChanges& changes) const;

@@ -34,7 +34,7 @@ public:
     {
         const std::size_t begin = index * kLinkBlock,
                           end = std::min(begin + kLinkBlock, work_.order.size());
-        has_weights_ = !block.probabilities.empty();
+        has_weights_ = !block.weights.empty();
         rows_.clear();
         ends_.clear();
         weights_.clear();

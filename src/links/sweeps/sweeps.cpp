@@ -74,7 +74,7 @@ void add_row(const LinkRow& row, const SubLumels& parts, std::size_t i, const Li
 template <std::size_t Lanes>
 LaneLight<Lanes> sum_of_row(const LinkRow& row, const Light<Lanes>& sent, LaneLight<Lanes> sum)
 {
-    if (row.probabilities)
+    if (row.weights)
         for (std::size_t k = 0; k < row.ends.size(); ++k)
             add(sum, row.weight(k), sent[row.ends[k].number()]);
     else

@@ -148,8 +148,10 @@ std::vector<float> LinkRadiosity::error_estimate() const
     if (mean_.light.empty())
         return error;
     const auto deviation = [&](const Mean& of, int reach) {
-        return deviation_nearby({of.noise.begin(), of.noise.end()}, work_.scene.lumels, work_.order,
-                                reach, 1.0);
+        std::vector<double> square(of.noise.begin(), of.noise.end());
+        for (std::size_t i = 0; i < square.size(); ++i)
+            square[i] += double(of.wrong[i]);
+        return deviation_nearby(square, work_.scene.lumels, work_.order, reach, 1.0);
     };
     const std::vector<double> of_rays = deviation(mean_, kIndirectReach);
     std::vector<double> of_direct(error.size(), 0.0);

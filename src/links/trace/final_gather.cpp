@@ -50,7 +50,7 @@ void FinalGather::step()
     }
     const std::size_t last = std::min(block_ + kBlocksPerGather, tracer_.blocks());
     const std::vector<std::uint16_t> rays(sent_.size(), kGatherRays);
-    tracer_.trace(block_, last, {rays, kLinkStream + round_, nullptr}, links_);
+    tracer_.trace(block_, last, {rays, round_, 0}, links_);
     take(last);
     block_ = last;
     if (block_ == tracer_.blocks()) {

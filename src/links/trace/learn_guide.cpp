@@ -18,9 +18,6 @@ namespace {
 
 /// Lumels of a group: the most, and the least that have enough rays to learn from.
 constexpr std::size_t kMaxGroup = 64, kMinGroup = 16;
-/// In brighter rooms rays stay uniform: the weights of a lumel's links sum to 1 only in the mean,
-/// which light that is reflected for long would amplify.
-constexpr double kBrightestGuided = 0.9;
 /// Of cube_side().
 constexpr std::size_t kCubeSides = 6;
 /// Blocks of links per task.
@@ -64,10 +61,10 @@ struct LinkRadiosity::LearntGroup {
     }
 };
 
-/// Whether rays may be guided.
-bool LinkRadiosity::can_guide() const
+/// Whether the rays so far have bins: to learn from, or to be weighed.
+bool LinkRadiosity::has_bins() const
 {
-    return options_.guide && !shares_directions() && mean_albedo() <= kBrightestGuided;
+    return !guide_.empty() || (can_guide_ && links_[0]->rounds.size() <= 1);
 }
 
 /// Light that ends of links send in a solution: the mean over the cells of a lumel, as what a guide
@@ -87,15 +84,13 @@ LinkRadiosity::SentLight LinkRadiosity::light_sent(std::size_t k) const
 
 /// Adds the rays of a lumel in the first round of a solution.
 void LinkRadiosity::add_moments(std::uint32_t i, std::uint32_t k, const LinkRow& row,
-                                const SentLight& sent, GuideMoments& moments) const
+                                const std::uint8_t* bins, const SentLight& sent,
+                                GuideMoments& moments) const
 {
-    const LumelSamples own(work_.lumels()[i], std::uint32_t(work_.scene.lumels.width),
-                           PathSamples::hash(options_.seed, kLinkStream + k),
-                           std::uint32_t(row.ends.size()));
+    const LumelSamples own = tracer_->samples_of(i, 0, k, row.ends.size());
     const glm::mat3 frame = frame_about(work_.world[i].normal);
     std::size_t n_near = 0;
     for (std::uint32_t n = 0; n < row.ends.size(); ++n) {
-        const glm::vec2 point = own[n].stratified(kLinkDirectionPair);
         const std::uint32_t number = row.ends[n].number();
         double light = double(sent.all[number]);
         if (number == LinkNumbers::kNear) {
@@ -104,9 +99,10 @@ void LinkRadiosity::add_moments(std::uint32_t i, std::uint32_t k, const LinkRow&
                     luminance(near.weight()) * double(sent.indirect[near.end.number()]);
             ++n_near;
         } else if (number == LinkNumbers::kSky) {
-            light = luminance(glm::vec3(kPi * work_.sources.dim_sky(frame * by_cosine(point))));
+            const glm::vec3 direction = frame * by_cosine(own[n].stratified(kLinkDirectionPair));
+            light = luminance(glm::vec3(kPi * work_.sources.dim_sky(direction)));
         }
-        moments.add(k, RayGuide::bin_of(point), light);
+        moments.add(k, bins[n], light);
     }
 }
 
@@ -130,7 +126,9 @@ LinkRadiosity::learn_block(std::size_t b, const std::array<SentLight, kSolutions
         for (const std::size_t n : group) {
             members.push_back(lumels[n]);
             for (std::uint32_t k = 0; k < kSolutions; ++k)
-                add_moments(lumels[n], k, rows[k][n], sent[k], moments);
+                add_moments(lumels[n], k, rows[k][n],
+                            links_[k]->rounds.front()[b].bins.data() + rows[k][n].first_slot,
+                            sent[k], moments);
         }
         if (const std::optional<RayGuide::Table> table = moments.find())
             learnt.push_back({std::move(members), *table});
@@ -141,7 +139,7 @@ LinkRadiosity::learn_block(std::size_t b, const std::array<SentLight, kSolutions
 /// Learns from the first round, whose rays are uniform. Returns whether any group gains.
 bool LinkRadiosity::learn_guide()
 {
-    if (!can_guide())
+    if (!can_guide_)
         return false;
     std::array<SentLight, kSolutions> sent;
     for (std::size_t k = 0; k < kSolutions; ++k)
@@ -158,19 +156,13 @@ bool LinkRadiosity::learn_guide()
         for (const LearntGroup& group : block) {
             if (guide_.empty()) {
                 guide_.group.assign(work_.order.size(), 0);
-                guide_.tables.push_back(RayGuide::uniform());
+                guide_.tables.push_back(RayGuide::all_uniform());
             }
             for (const std::uint32_t i : group.lumels)
                 guide_.group[i] = std::uint32_t(guide_.tables.size());
             guide_.tables.push_back(group.table);
         }
     return !guide_.empty();
-}
-
-/// Of a round's rays; null: they are uniform.
-const RayGuide* LinkRadiosity::guide_in(std::uint32_t round) const
-{
-    return round > 0 && !guide_.empty() ? &guide_ : nullptr;
 }
 
 }  // namespace lumel

@@ -43,6 +43,9 @@ constexpr std::size_t kBlocksPerDrawing = 512;
 constexpr double kDirectOfRound = 0.5;
 /// Minimum mean albedo of rooms whose level is balanced.
 constexpr double kBrightRoom = 0.95;
+/// Maximum mean albedo of rooms where rays are guided: the weights of a lumel's links sum to 1 only
+/// in the mean, which light that is reflected for long would amplify.
+constexpr double kBrightestGuided = 0.9;
 
 /// Adds the elapsed time to a stage [ms].
 class Stopwatch {
@@ -185,7 +188,7 @@ bool LinkRadiosity::is_consistent() const
     const std::size_t traced = is_tracing ? traced_ : tracer_->blocks();
     const auto is_sound = [&](const StoredLinks::Pass& pass) { return pass.fits(lumels, round_); };
     bool fits = stage_ > Stage::begin && stage_ <= Stage::solve && direct_->fits() &&
-                is(rays_.size(), lumels) && is(direct_mean_.light.size(), lumels) &&
+                is(direct_mean_.light.size(), lumels) &&
                 direct_mean_.noise.size() == direct_mean_.light.size() &&
                 direct_mean_.wrong.size() == direct_mean_.light.size() &&
                 direct_mean_.apart.size() == direct_mean_.light.size() &&
@@ -195,12 +198,12 @@ bool LinkRadiosity::is_consistent() const
                 is(mean_.bend.size(), lumels) && is(adapted_.size(), lumels) &&
                 traced_ <= tracer_->blocks() && means_.size() == round_ && guide_.fits(lumels) &&
                 (state_.shots > 0) == !mean_.light.empty() &&
-                std::ranges::all_of(passes_, is_sound) &&
-                (!is_tracing || (mean_rays_ > 0.0 && rays_.size() == lumels)) &&
+                std::ranges::all_of(passes_, is_sound) && (!is_tracing || mean_rays_ > 0.0) &&
                 (stage_ != Stage::solve || traced_ == tracer_->blocks());
     for (std::size_t k = 0; k < kSolutions; ++k)
         fits = fits && links_[k]->rounds.size() == round_ + (is_tracing ? 1 : 0) &&
-               links_[k]->fits(work_, *parts_, *numbers_, traced, lamp_count()) &&
+               rays_[k].size() == (is_tracing || !rays_[k].empty() ? lumels : 0) &&
+               links_[k]->fits(work_, *parts_, *numbers_, traced, lamp_count(), has_bins()) &&
                swept_sky_[k].size() == (lamps_ && !mean_.light.empty() ? parts : 0) &&
                received_[k].size() >= (mean_.light.empty() ? 0 : parts) &&
                is(received_[k].size(), parts) &&
@@ -237,6 +240,7 @@ void LinkRadiosity::find_light()
                     options_.outside_light);
     for (std::optional<LinkTable>& links : links_)
         links.emplace(parts_->count());
+    can_guide_ = options_.guide && !shares_directions() && mean_albedo() <= kBrightestGuided;
     release();
     sealed_.emplace(work_, *parts_, *numbers_);
 }
@@ -251,16 +255,16 @@ void LinkRadiosity::trace()
     const std::size_t last = std::min(traced_ + count, tracer_->blocks());
     const bool shares = shares_directions();
     for (std::uint32_t k = 0; k < kSolutions; ++k) {
-        const std::uint32_t stream = kLinkStream + kSolutions * round_ + k;
         std::optional<SharedDirections> shared;
         if (shares)
-            shared.emplace(
-                mean_rays_,
-                PathSamples::hash(PathSamples::hash(options_.seed, kSharedStream), stream));
-        LinkTracer::Sending sending{rays_, stream, shared ? &*shared : nullptr, guide_in(round_)};
+            shared.emplace(mean_rays_,
+                           PathSamples::hash(PathSamples::hash(options_.seed, kSharedStream),
+                                             LinkTracer::stream(round_, k)));
+        LinkTracer::Sending sending{rays_[k], round_, k, shared ? &*shared : nullptr,
+                                    has_bins() ? &guide_ : nullptr};
         if (has_known_round())
             sending.known.emplace(
-                LinkTracer::Known{changes_, stored_->rounds[round_], first_rays_, k});
+                LinkTracer::Known{changes_, stored_->rounds[round_], first_rays_[k], k});
         tracer_->trace(traced_, last, sending, *links_[k]);
     }
     share_sky(traced_, last);
@@ -327,11 +331,27 @@ double LinkRadiosity::sweep(std::size_t k, double least_factor)
         .factor;
 }
 
+/// Weighs guided rays among those of all rounds.
+void LinkRadiosity::weigh_rays()
+{
+    if (!has_bins())
+        for (std::optional<LinkTable>& links : links_)
+            for (LinkBlock& block : links->rounds.front())
+                block.bins = {};  // frees them
+    if (guide_.empty())
+        return;
+    for (std::uint32_t k = 0; k < kSolutions; ++k)
+        tracer_->weigh(guide_, k, *links_[k]);
+    share_sky(0, tracer_->blocks());
+    device_links_ = {};
+}
+
 /// Solves for all bounces over the links of each solution.
 void LinkRadiosity::solve()
 {
     const ReflectedLight reflected(work_, *parts_, *numbers_, *direct_);
     double factor = 0.0;
+    weigh_rays();
     for (std::size_t k = 0; k < kSolutions; ++k) {
         sources_[k] = find_source_term(work_, *parts_, *numbers_, reflected, *links_[k]);
         // From the light of the first: only a residual's share of that is left.

@@ -78,8 +78,8 @@ public:
     SolverState state() const override { return state_; }
     void release() override;
     std::vector<glm::vec3> irradiance() override;
-    /// [N] Estimated error of each lumel relative to its light, 0…1, without the filter's bias; 1
-    /// before the first round has ended, 0 for buried lumels.
+    /// [N] Estimated error of each lumel relative to its light, 0…1; 1 before the first round has
+    /// ended, 0 for buried lumels.
     std::vector<float> error_estimate() const override;
     std::vector<NoisySurface> noisy_surfaces() const override;
     const gpu::StageTimes& times() const override { return times_; }
@@ -183,32 +183,34 @@ private:
     void end();
     void begin_known_round();
     void begin_links();
-    bool can_guide() const;
+    bool has_bins() const;
     struct SentLight;
     struct LearntGroup;
     SentLight light_sent(std::size_t solution) const;
     void add_moments(std::uint32_t lumel, std::uint32_t solution, const LinkRow& row,
-                     const SentLight& sent, GuideMoments& moments) const;
+                     const std::uint8_t* bins, const SentLight& sent, GuideMoments& moments) const;
     std::vector<LearntGroup> learn_block(std::size_t block,
                                          const std::array<SentLight, kSolutions>& sent) const;
     bool learn_guide();
-    const RayGuide* guide_in(std::uint32_t round) const;
     bool has_known_round() const;
     StoredLinks::Round stored_round(std::size_t round, const LinkNumbers& stored) const;
     bool shares_directions() const;
-    std::vector<double> rays_so_far() const;
-    std::vector<double> deviation_of_ray(const std::vector<double>& sent,
-                                         const std::vector<double>& weight);
+    std::vector<glm::dvec3> rays_so_far() const;
+    std::vector<glm::dvec3> deviation_of_ray(const std::vector<glm::dvec3>& sent,
+                                             const std::vector<double>& weight);
+    struct RayNeeds;
+    RayNeeds find_needs();
     void send_first_rays(double most);
-    std::vector<double> gain_of_guide(const std::vector<double>& sent) const;
-    std::vector<double> rays_by_deviation(double mean, const std::vector<double>& sent,
-                                          const std::vector<double>& deviation,
+    std::vector<double> gain_of_guide(std::size_t solution,
+                                      const std::vector<glm::dvec3>& sent) const;
+    std::vector<double> rays_by_deviation(int solution, double mean, const RayNeeds& needs,
                                           const std::vector<double>& gain) const;
-    void add_rays_of_noisy(const std::vector<double>& sent, const std::vector<double>& deviation,
-                           const std::vector<double>& gain, std::vector<double>& rays) const;
-    void add_rays_of_charts(const std::vector<double>& sent, const std::vector<double>& gain,
-                            std::vector<double>& rays);
+    void add_rays_of_noisy(int solution, const RayNeeds& needs, const std::vector<double>& gain,
+                           std::vector<double>& rays) const;
+    void add_rays_of_charts(int solution, const RayNeeds& needs, const std::vector<double>& gain,
+                            std::vector<double>& rays) const;
     void share_out_rays(double most);
+    void share_out_rays(const RayNeeds& needs, double most);
     double rays_for(const ChartNoise& chart) const;
     static Errors errors_in(const ChartNoise& chart, std::size_t band);
     std::span<const ChartNoise> noisy_charts() const;
@@ -219,6 +221,7 @@ private:
     double sweep_residual() const;
     double sweep_on(const gpu::Device& device, std::size_t solution, double least_factor);
     double sweep(std::size_t solution, double least_factor);
+    void weigh_rays();
     void solve();
     void end_round();
     double mean_albedo() const;
@@ -265,8 +268,9 @@ private:
     LinkWork work_;
     const StoredLinks* stored_ = nullptr;
     Then then_ = Then::add;
-    LinkChanges changes_;                  ///< since the links were stored
-    std::vector<std::size_t> first_rays_;  ///< of the stored round, see first_rays()
+    LinkChanges changes_;  ///< since the links were stored
+    /// Of the stored round in each solution, see first_rays().
+    std::array<std::vector<std::size_t>, kSolutions> first_rays_;
     const std::optional<LampTable> lamps_;
     std::optional<SubLumels> parts_;
     std::optional<LinkNumbers> numbers_;
@@ -287,16 +291,17 @@ private:
     Mean mean_;         ///< filtered mean of solutions
     Mean direct_mean_;  ///< filtered mean of direct light
     Stage stage_ = Stage::begin;
-    std::uint32_t round_ = 0;          ///< current round
-    double mean_rays_ = 0.0;           ///< per lumel in the round, in each solution
-    std::vector<double> means_;        ///< of all rounds that ended
-    std::vector<std::uint16_t> rays_;  ///< [N] rays of each lumel in the round, in each solution
-    RayGuide guide_;                   ///< learnt from the first round, for the others
-    std::size_t traced_ = 0;           ///< blocks of the round
-    double mean_light_ = 0.0;          ///< summed over channels [lx]
-    std::vector<double> adapted_;      ///< [N] adapted_light() of the present estimate
-    std::array<Errors, 4> errors_{};   ///< by ErrorOf; of charts, the worst that counts
-    std::vector<ChartNoise> noise_;    ///< in_order(), of the present estimate
+    std::uint32_t round_ = 0;                ///< current round
+    double mean_rays_ = 0.0;                 ///< per lumel in the round, in each solution
+    std::vector<double> means_;              ///< of all rounds that ended
+    StoredLinks::RayCounts rays_;            ///< of each lumel in the round
+    bool can_guide_ = false;                 ///< guide rays
+    RayGuide guide_;                         ///< learnt from the first round, for the others
+    std::size_t traced_ = 0;                 ///< blocks of the round
+    double mean_light_ = 0.0;                ///< summed over channels [lx]
+    std::vector<double> adapted_;            ///< [N] adapted_light() of the present estimate
+    std::array<Errors, 4> errors_{};         ///< by ErrorOf; of charts, the worst that counts
+    std::vector<ChartNoise> noise_;          ///< in_order(), of the present estimate
     std::vector<StoredLinks::Pass> passes_;  ///< of direct light
     /// Squared error of direct light before its last pass in this round: of lumels, of charts; 0:
     /// none.

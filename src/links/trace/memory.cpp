@@ -14,8 +14,8 @@ namespace {
 constexpr double kLikelyRays = 64.0;
 /// [bytes] of a lumel per round and solution: number of its links.
 constexpr double kRowBytes = sizeof(std::uint16_t);
-/// [bytes] of a ray after the first round: the probability of its direction.
-constexpr double kProbabilityBytes = sizeof(std::uint16_t);
+/// [bytes] of a ray of guided lumels: its weight.
+constexpr double kWeightBytes = sizeof(float);
 /// [bytes] of a ray where lamps are kept apart: its shares. A tenth of the rays is near, with two
 /// to four shares each; maximum seen.
 constexpr double kShareBytes = 0.4 * double(sizeof(NearShare));
@@ -55,7 +55,7 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
     for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinAdded)
         ++rounds;
     return std::uint64_t(double(lumels) * (rays * (kLinkBytes + (lamps > 0 ? kShareBytes : 0.0)) +
-                                           (rays - std::min(rays, kFirst)) * kProbabilityBytes +
+                                           (rays > kFirst ? rays : 0.0) * kWeightBytes +
                                            rounds * kSolutions * kRowBytes));
 }
 
@@ -130,9 +130,8 @@ double LinkRadiosity::rays_that_fit() const
         taken = std::ranges::max(work_.ranks->all(taken));
     const auto all = double(work_.order.size()),
                lumels = double(lumels_per_rank(work_.order.size(), count_of(work_.ranks)));
-    const double of_ray = state_.shots > 0
-                              ? taken / double(state_.shots) + lumels * kProbabilityBytes
-                              : lumels * kLinkBytes;
+    const double of_ray = state_.shots > 0 ? taken / double(state_.shots) + lumels * kWeightBytes
+                                           : lumels * kLinkBytes;
     const double rows = lumels * kSolutions * kRowBytes + all * kGuideBytes;
     return std::max(double(most_bytes_) - taken - rows, 0.0) / (kSolutions * of_ray);
 }

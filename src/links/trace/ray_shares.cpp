@@ -1,7 +1,10 @@
 // LinkRadiosity's rays: how many each lumel sends in a round.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include <glm/gtx/norm.hpp>
 
 #include "base/core/luminance.h"
 #include "links/direct/deviation.h"
@@ -15,13 +18,18 @@ namespace {
 constexpr double kEvenShare = 0.25;
 /// First rays of a cut lumel, if memory allows: each sub-lumel has a share of them only.
 constexpr std::uint16_t kFirstOfCut = 32;
+/// Rays of the second round, relative to those of the first, from which on they gain more by a
+/// guide than it takes to learn it.
+constexpr double kWorthAGuide = 0.25;
 /// Maximum assumed gain of guided rays: few rays tell it, and a further round costs more than rays.
-constexpr double kMostGain = 3.0;
+constexpr double kMostGain = 1.5;
 /// Rays that a limit leaves after a round, relative to all so far, that are not worth another.
 constexpr double kTooFew = 0.05;
 /// Relative noise above which a lumel gets more rays than the errors over all lumels ask for; the
 /// most that those add, relative to all rays so far; and to the lumel's.
 constexpr double kNoisyLumel = 0.04, kShareOfNoisy = 0.15, kMostOfNoisy = 8.0;
+/// Distance of neighbours [texels] whose light in two solutions tells the deviation.
+constexpr int kReachOfOthers = 3;
 /// Bisection steps for the rays that all lumels add.
 constexpr int kFillSteps = 24;
 /// Minimum brightness in ray allocation, relative to the mean.
@@ -41,33 +49,29 @@ double scale_for(double wanted, double start, const Sum& sum)
     return high;
 }
 
-/// Rays to add to `sent` for the variance of `wanted` rays like them, if the new ones have 1 / gain
-/// of their variance: x sent, with (1 + x / gain) / (1 + x)² = sent / wanted.
-double guided_rays(double sent, double wanted, double gain)
-{
-    if (!(wanted > sent))
-        return 0.0;
-    if (!(sent > 0.0))
-        return wanted;
-    const double ratio = wanted / sent, half = 1.0 - 0.5 * ratio / gain;
-    return sent * (std::sqrt(half * half + ratio - 1.0) - half);
-}
-
 }  // namespace
 
-/// [N] Variance of the rays of each lumel so far / of those of the next round. sent: rays_so_far().
-std::vector<double> LinkRadiosity::gain_of_guide(const std::vector<double>& sent) const
+/// What the rays of the next round are allocated by; the components of a vector are of solutions.
+struct LinkRadiosity::RayNeeds {
+    std::vector<glm::dvec3> sent;       ///< [N] rays so far that count
+    std::vector<glm::dvec3> deviation;  ///< [N] deviation_of_ray() by weights()
+    std::vector<glm::dvec3> of_charts;  ///< [N] by chart_weights(); empty: no chart is noisy
+};
+
+/// [N] Variance of the rays of each lumel so far / of those of the next round, in a solution.
+std::vector<double> LinkRadiosity::gain_of_guide(std::size_t k,
+                                                 const std::vector<glm::dvec3>& sent) const
 {
     std::vector<double> gain(sent.size(), 1.0);
     if (guide_.empty())
         return gain;
     const auto visit = [&](std::size_t b) {
-        const std::vector<std::uint16_t>& first = links_[0]->rounds.front()[b].rays;
+        const std::vector<std::uint16_t>& first = links_[k]->rounds.front()[b].rays;
         for (std::size_t n = 0; n < first.size(); ++n) {
             const std::uint32_t i = lumels_of(work_, b)[n];
-            const double even = std::min(double(first[n]) / std::max(sent[i], 1.0), 1.0);
-            gain[i] = even * std::min(double(guide_.tables[guide_.group[i]].gain), kMostGain) +
-                      1.0 - even;
+            const double even = std::min(double(first[n]) / std::max(sent[i][int(k)], 1.0), 1.0);
+            const double of_guided = std::min(double(guide_.of(i, k).gain), kMostGain);
+            gain[i] = of_guided / (even + (1.0 - even) * of_guided);
         }
     };
     parallel_for_own(work_.ranks, 0, tracer_->blocks(), kRowBlocksPerTask,
@@ -128,38 +132,50 @@ std::vector<double> LinkRadiosity::chart_weights() const
     return weight;
 }
 
-/// [N] Rays of each lumel so far that count, per solution.
-std::vector<double> LinkRadiosity::rays_so_far() const
+/// [N] Rays of each lumel so far that count.
+std::vector<glm::dvec3> LinkRadiosity::rays_so_far() const
 {
-    std::vector<double> rays(work_.order.size(), 0.0);
+    std::vector<glm::dvec3> rays(work_.order.size(), glm::dvec3(0.0));
     for (std::size_t i = 0; i < rays.size(); ++i)
-        for (const SourceTerm& source : sources_)
-            for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
-                rays[i] += double(source.rays[p]) / double(kSolutions);
+        for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
+            rays[i] += glm::dvec3(sources_[0].rays[p], sources_[1].rays[p], sources_[2].rays[p]);
     return rays;
 }
 
-/// [N] Weighted deviation of one ray of each lumel that the filter leaves, estimated from other
-/// lumels: rays allocated by a lumel's own error, or by light that the filter spread from it, would
-/// darken the result. sent: rays_so_far().
-std::vector<double> LinkRadiosity::deviation_of_ray(const std::vector<double>& sent,
-                                                    const std::vector<double>& weight)
+/// [N] Weighted deviation of one ray of each lumel that the filter leaves, in a solution estimated
+/// from the others: rays allocated by a solution's own light would change the result. They do so
+/// even by that of neighbours, whose rays are stratified with the lumel's: where theirs have met a
+/// lamp, its own have not. sent: rays_so_far().
+std::vector<glm::dvec3> LinkRadiosity::deviation_of_ray(const std::vector<glm::dvec3>& sent,
+                                                        const std::vector<double>& weight)
 {
-    std::vector<double> raw(work_.order.size()), filtered(work_.order.size());
+    std::vector<glm::dvec3> raw(work_.order.size());
+    std::vector<double> before(raw.size()), after(raw.size());
     for (std::size_t i = 0; i < raw.size(); ++i) {
-        const double scale = weight[i] * sent[i];
-        // As in plain_mean().
-        raw[i] = scale * spread(indirect(i, 0), indirect(i, 1), indirect(i, 2)) / 18.0;
-        filtered[i] = scale * double(mean_.noise[i]);
+        const glm::vec3 a = indirect(i, 0), b = indirect(i, 1), c = indirect(i, 2);
+        const glm::dvec3 apart(glm::distance2(b, c), glm::distance2(c, a), glm::distance2(a, b));
+        // The variance of the mean, as in plain_mean(): two solutions differ by six times as much.
+        before[i] = weight[i] * (apart.x + apart.y + apart.z) / 18.0;
+        after[i] = weight[i] * double(mean_.noise[i]);
+        raw[i] = weight[i] * sent[i] * apart / 6.0;
     }
-    std::vector<double> deviation =
-        deviation_nearby(raw, work_.scene.lumels, work_.order, kIndirectReach, 0.0);
+    std::vector<glm::dvec3> deviation =
+        deviation_nearby(raw, work_.scene.lumels, work_.order, kReachOfOthers, 1.0);
     if (const ChartFilter* const by = filter()) {
-        const std::vector<double> left = by->variance_left(raw, filtered);
+        const std::vector<double> left = by->variance_left(before, after);
         for (std::size_t i = 0; i < deviation.size(); ++i)
             deviation[i] *= std::sqrt(left[i]);
     }
     return deviation;
+}
+
+LinkRadiosity::RayNeeds LinkRadiosity::find_needs()
+{
+    RayNeeds needs{.sent = rays_so_far()};
+    needs.deviation = deviation_of_ray(needs.sent, weights());
+    if (!noisy_charts().empty())
+        needs.of_charts = deviation_of_ray(needs.sent, chart_weights());
+    return needs;
 }
 
 /// Rays of the first round: as many for all, but more for cut lumels. most: per lumel.
@@ -168,23 +184,22 @@ void LinkRadiosity::send_first_rays(double most)
     mean_rays_ = options_.even_rays > 0 ? double(options_.even_rays) / double(kSolutions)
                                         : double(kFirstRays);
     mean_rays_ = std::min(mean_rays_, most);
-    rays_.assign(work_.order.size(), std::uint16_t(std::lround(mean_rays_)));
-    if (options_.even_rays > 0 || rays_that_fit() < double(kFirstOfCut))
-        return;
-    for (std::size_t i = 0; i < rays_.size(); ++i)
-        if (parts_->is_cut(i))
-            rays_[i] = std::max(rays_[i], kFirstOfCut);
+    std::vector<std::uint16_t> rays(work_.order.size(), std::uint16_t(std::lround(mean_rays_)));
+    if (options_.even_rays == 0 && rays_that_fit() >= double(kFirstOfCut))
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            if (parts_->is_cut(i))
+                rays[i] = std::max(rays[i], kFirstOfCut);
+    rays_.fill(rays);
 }
 
-/// [N] Rays that lumels add to `sent` for errors over all of them, `mean` on average. The sum of
-/// variances is minimal if all rays of a lumel are proportional to the deviation of one; lumels are
-/// filled up to that. Some rays are uniform, since lumels whose rays have not found a light yet
+/// [N] Rays that lumels add in a solution for errors over all of them, `mean` on average. The sum
+/// of variances is minimal if all rays of a lumel are proportional to the deviation of one; lumels
+/// are filled up to that. Some rays are uniform, since lumels whose rays have not found a light yet
 /// seem noiseless.
-std::vector<double> LinkRadiosity::rays_by_deviation(double mean, const std::vector<double>& sent,
-                                                     const std::vector<double>& deviation,
+std::vector<double> LinkRadiosity::rays_by_deviation(int k, double mean, const RayNeeds& needs,
                                                      const std::vector<double>& gain) const
 {
-    std::vector<double> rays(sent.size(), 0.0);
+    std::vector<double> rays(needs.sent.size(), 0.0);
     if (!(mean > 0.0))
         return rays;
     struct OfLumel {
@@ -192,15 +207,16 @@ std::vector<double> LinkRadiosity::rays_by_deviation(double mean, const std::vec
 
         double added(double scale) const { return std::max(scale * deviation - sent, 0.0); }
     };
+    const auto of = [&](std::size_t i) { return OfLumel{needs.deviation[i][k], needs.sent[i][k]}; };
     std::vector<OfLumel> lit;  // read some forty times
     double widest = 0.0;
-    for (std::size_t i = 0; i < deviation.size(); ++i)
+    for (std::size_t i = 0; i < rays.size(); ++i)
         if (!work_.is_buried(i)) {
-            lit.push_back({deviation[i], sent[i]});
-            widest = std::max(widest, deviation[i]);
+            lit.push_back(of(i));
+            widest = std::max(widest, lit.back().deviation);
         }
     if (!(widest > 0.0))
-        return std::vector<double>(sent.size(), mean);
+        return std::vector<double>(rays.size(), mean);
     const double scale =
         scale_for((1.0 - kEvenShare) * mean * double(lit.size()), 1.0 / widest, [&](double tried) {
             double sum = 0.0;
@@ -208,84 +224,84 @@ std::vector<double> LinkRadiosity::rays_by_deviation(double mean, const std::vec
                 sum += one.added(tried);
             return sum;
         });
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const double added = work_.is_buried(i) ? 0.0 : OfLumel{deviation[i], sent[i]}.added(scale);
-        rays[i] = kEvenShare * mean + guided_rays(sent[i], sent[i] + added, gain[i]);
-    }
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        rays[i] = kEvenShare * mean + (work_.is_buried(i) ? 0.0 : of(i).added(scale) / gain[i]);
     return rays;
 }
 
-/// Raises the rays that the noisiest lumels add to `sent`. They are few, as in the corners of a
-/// room, but an eye sees each.
-void LinkRadiosity::add_rays_of_noisy(const std::vector<double>& sent,
-                                      const std::vector<double>& deviation,
-                                      const std::vector<double>& gain,
+/// Raises the rays that the noisiest lumels add. They are few, as in the corners of a room, but an
+/// eye sees each.
+void LinkRadiosity::add_rays_of_noisy(int k, const RayNeeds& needs, const std::vector<double>& gain,
                                       std::vector<double>& rays) const
 {
     if (!(target_eye_error_ > 0.0) || adapted_.empty() || !(mean_light_ > 0.0))
         return;
     // √(Σ d² / 3) / (Σ adapted / 3), as in estimate_for_eye(); weights() are of mean_light_.
     const double quiet = kNoisyLumel * mean_light_ / std::sqrt(3.0);
-    const auto wanted = [&](std::size_t i, double share) {
-        const double ratio = deviation[i] / quiet;
-        return sent[i] + share * std::clamp(ratio * ratio - sent[i], 0.0, kMostOfNoisy * sent[i]);
+    const auto wanted = [&](std::size_t i) {
+        const double ratio = needs.deviation[i][k] / quiet, sent = needs.sent[i][k];
+        return std::clamp(ratio * ratio - sent, 0.0, kMostOfNoisy * sent);
     };
     double all = 0.0, most = 0.0;
-    for (std::size_t i = 0; i < sent.size(); ++i) {
-        all += sent[i];
-        most += wanted(i, 1.0) - sent[i];
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        all += needs.sent[i][k];
+        most += wanted(i);
     }
     const double share = std::min(1.0, kShareOfNoisy * all / std::max(most, 1.0));
     for (std::size_t i = 0; i < rays.size(); ++i)
-        rays[i] = std::max(rays[i], guided_rays(sent[i], wanted(i, share), gain[i]));
+        rays[i] = std::max(rays[i], share * wanted(i) / gain[i]);
 }
 
-/// Raises the rays that lumels add to `sent` on charts whose visible noise is above its target;
-/// within a chart all rays are in proportion to the deviation of one.
-void LinkRadiosity::add_rays_of_charts(const std::vector<double>& sent,
-                                       const std::vector<double>& gain, std::vector<double>& rays)
+/// Raises the rays that lumels add on charts whose visible noise is above its target; within a
+/// chart all rays are in proportion to the deviation of one.
+void LinkRadiosity::add_rays_of_charts(int k, const RayNeeds& needs,
+                                       const std::vector<double>& gain,
+                                       std::vector<double>& rays) const
 {
-    const std::span<const ChartNoise> noisy = noisy_charts();
-    if (noisy.empty())
-        return;
-    const std::vector<double> deviation = deviation_of_ray(sent, chart_weights());
-    for (const ChartNoise& chart : noisy) {
+    for (const ChartNoise& chart : noisy_charts()) {
         const double ratio = rays_for(chart);
         if (ratio <= 1.0)
             continue;
         double sum = 0.0, of_deviations = 0.0;
         for (const std::uint32_t i : chart.lumels) {
-            sum += sent[i];
-            of_deviations += deviation[i];
+            sum += needs.sent[i][k];
+            of_deviations += needs.of_charts[i][k];
         }
         if (!(of_deviations > 0.0))
             continue;
+        const double scale = ratio * sum / of_deviations;
         for (const auto* lumels : {&chart.lumels, &chart.beside})
             for (const std::uint32_t i : *lumels)
-                rays[i] = std::max(
-                    rays[i],
-                    guided_rays(sent[i], ratio * sum / of_deviations * deviation[i], gain[i]));
+                rays[i] =
+                    std::max(rays[i], (scale * needs.of_charts[i][k] - needs.sent[i][k]) / gain[i]);
     }
 }
 
-/// Allocates the rays of a later round, at most `most` per lumel.
+/// Allocates the rays of a later round, at most `most` per lumel and solution; before the second,
+/// learns to guide them.
 void LinkRadiosity::share_out_rays(double most)
 {
-    const std::vector<double> sent = rays_so_far();
-    std::vector<double> rays(sent.size(), 0.0);
-    const double mean = std::min(more_rays(), most);
-    if (mean > 0.0 || !noisy_charts().empty()) {
-        const std::vector<double> gain = gain_of_guide(sent);
-        const std::vector<double> deviation = deviation_of_ray(sent, weights());
-        rays = rays_by_deviation(mean, sent, deviation, gain);
-        add_rays_of_charts(sent, gain, rays);
-        if (round_ == 1 && std::ranges::any_of(rays, [](double more) { return more > 0.0; }))
-            add_rays_of_noisy(sent, deviation, gain, rays);
-    }
+    const RayNeeds needs = find_needs();
+    share_out_rays(needs, most);
+    const double so_far = double(state_.shots) / double(kSolutions);
+    if (round_ == 1 && mean_rays_ > kWorthAGuide * so_far && learn_guide())
+        share_out_rays(needs, most);
+}
+
+void LinkRadiosity::share_out_rays(const RayNeeds& needs, double most)
+{
+    std::array<std::vector<double>, kSolutions> rays;
     double sum = 0.0, lit = 0.0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        sum += rays[i];
-        lit += work_.is_buried(i) ? 0.0 : 1.0;
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        const std::vector<double> gain = gain_of_guide(k, needs.sent);
+        rays[k] = rays_by_deviation(int(k), std::min(more_rays(), most), needs, gain);
+        add_rays_of_charts(int(k), needs, gain, rays[k]);
+        if (round_ == 1 && std::ranges::any_of(rays[k], [](double more) { return more > 0.0; }))
+            add_rays_of_noisy(int(k), needs, gain, rays[k]);
+        for (std::size_t i = 0; i < rays[k].size(); ++i) {
+            sum += rays[k][i];
+            lit += work_.is_buried(i) ? 0.0 : 1.0;
+        }
     }
     mean_rays_ = sum / std::max(lit, 1.0);
     // Rays that the limit would leave for a round too small are sent in this one.
@@ -294,8 +310,10 @@ void LinkRadiosity::share_out_rays(double most)
     const double scale =
         mean_rays_ > most || (is_last && mean_rays_ > 0.0) ? most / mean_rays_ : 1.0;
     mean_rays_ *= scale;
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        rays_[i] = std::uint16_t(std::clamp(std::lround(scale * rays[i]), 0l, long(kMaxLinks)));
+    for (std::size_t k = 0; k < kSolutions; ++k)
+        std::ranges::transform(rays[k], rays_[k].begin(), [&](double one) {
+            return std::uint16_t(std::clamp(std::lround(scale * one), 0l, long(kMaxLinks)));
+        });
 }
 
 }  // namespace lumel

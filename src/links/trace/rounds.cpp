@@ -16,9 +16,6 @@ constexpr double kMaxAdded = 3.0;
 constexpr double kLeastOfChart = 2.0, kMostOfChart = 16.0, kAim = 0.5;
 /// Rays allocated by deviation reduce the variance like 1 / kAdaptiveGain as many uniform ones.
 constexpr double kAdaptiveGain = 0.6;
-/// Rays of the second round, relative to those of the first, from which on they gain more by a
-/// guide than it takes to learn it.
-constexpr double kWorthAGuide = 0.25;
 /// Fraction of the remaining rays that the second round sends if the target errors need all of
 /// them: the first round's errors are too rough to share out the rest. Where charts are noisy to
 /// the eye, one round did better.
@@ -190,11 +187,8 @@ void LinkRadiosity::begin_round()
         state_.full = fit < kMinAdded * so_far;
         if (round_ == 1 && noisy_charts().empty() && more_rays() >= most)
             most *= kOfLimit;
-        if (!state_.full) {
+        if (!state_.full)
             share_out_rays(most);
-            if (round_ == 1 && mean_rays_ > kWorthAGuide * so_far && learn_guide())
-                share_out_rays(most);
-        }
         state_.ended = !state_.full && !(mean_rays_ > 0.0);
         if (state_.full || state_.ended) {
             stage_ = Stage::direct;  // without work
@@ -236,7 +230,8 @@ void LinkRadiosity::leave_sealed_space()
     const std::vector<char> sealed = sealed_->sealed(lit);
     for (std::size_t i = 0; i < sealed.size(); ++i)
         if (sealed[i])
-            rays_[i] = 0;
+            for (std::vector<std::uint16_t>& rays : rays_)
+                rays[i] = 0;
 }
 
 /// Further rays per lumel and solution for the target errors, except that of visible noise.

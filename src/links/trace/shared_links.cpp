@@ -93,7 +93,8 @@ void LinkRadiosity::check_agreement() const
     if (count_of(work_.ranks) == 1)
         return;
     Fingerprint hash;
-    hash.add(rays_);
+    for (const std::vector<std::uint16_t>& rays : rays_)
+        hash.add(rays);
     hash.add(guide_.group);
     work_.ranks->agree(hash.value(), "has other intermediate results than rank 0; all machines "
                                      "need processors of the same kind");

@@ -47,11 +47,13 @@ void LinkRadiosity::begin_known_round()
     const StoredLinks::Round& round = stored_->rounds[round_];
     mean_rays_ = round.mean;
     rays_ = round.rays;
-    rays_.resize(work_.order.size(), 0);
-    for (std::size_t i = 0; i < rays_.size(); ++i)
-        if (rays_[i] == 0 && (changes_.all || changes_.starts[i]))
-            rays_[i] = std::uint16_t(std::lround(mean_rays_));
-    first_rays_ = first_rays(round.rays);
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        rays_[k].resize(work_.order.size(), 0);
+        for (std::size_t i = 0; i < rays_[k].size(); ++i)
+            if (rays_[k][i] == 0 && (changes_.all || changes_.starts[i]))
+                rays_[k][i] = std::uint16_t(std::lround(mean_rays_));
+        first_rays_[k] = first_rays(round.rays[k]);
+    }
     refined_ = {};
     if (round_ == 0 && stored_->guide.fits(work_.order.size()))
         guide_ = stored_->guide;
@@ -82,10 +84,7 @@ StoredLinks LinkRadiosity::kept(const std::string& hash) const
 StoredLinks::Round LinkRadiosity::stored_round(std::size_t r, const LinkNumbers& stored) const
 {
     const std::vector<std::uint32_t>& order = work_.order;
-    StoredLinks::Round round{.mean = means_[r], .rays = std::vector<std::uint16_t>(order.size())};
-    for (std::size_t o = 0; o < order.size(); ++o)
-        round.rays[order[o]] = links_[0]->rounds[r][o / kLinkBlock].rays[o % kLinkBlock];
-    const std::vector<std::size_t> first = first_rays(round.rays);
+    StoredLinks::Round round{.mean = means_[r]};
     const auto as_stored = [&](LinkEnd end) {
         return numbers_->is_part(end.number())
                    ? LinkEnd::of(stored.of_part(parts_->lumel(numbers_->part(end.number()))),
@@ -93,6 +92,10 @@ StoredLinks::Round LinkRadiosity::stored_round(std::size_t r, const LinkNumbers&
                    : end;
     };
     for (std::uint32_t k = 0; k < kSolutions; ++k) {
+        round.rays[k].resize(order.size());
+        for (std::size_t o = 0; o < order.size(); ++o)
+            round.rays[k][order[o]] = links_[k]->rounds[r][o / kLinkBlock].rays[o % kLinkBlock];
+        const std::vector<std::size_t> first = first_rays(round.rays[k]);
         round.ends[k].resize(first.back());
         std::vector<LinkEnd>::const_iterator end;
         for (std::size_t o = 0; o < order.size(); ++o) {

@@ -47,7 +47,7 @@ TEST(RayGuide, DrawsEachBinAsOftenAsItsProbabilitySays)
 {
     const std::optional<RayGuide::Table> found = learnt_from(patch);
     ASSERT_TRUE(found);
-    const GuidedDraw draw(found->probabilities);
+    const GuidedDraw draw(found->front().probabilities);
     std::vector<double> count(RayGuide::kBins, 0.0);
     for_each_point([&](const glm::vec2& uniform) {
         const GuidedDraw::Drawn drawn = draw(uniform);
@@ -55,7 +55,7 @@ TEST(RayGuide, DrawsEachBinAsOftenAsItsProbabilitySays)
         count[drawn.bin] += 1.0 / kPoints;
     });
     for (std::uint32_t b = 0; b < RayGuide::kBins; ++b) {
-        const double wanted = double(found->probabilities[b]) / RayGuide::kOne;
+        const double wanted = double(found->front().probabilities[b]) / RayGuide::kOne;
         EXPECT_NEAR(count[b], wanted, 0.02 * wanted + 2e-5) << b;
     }
 }
@@ -64,7 +64,7 @@ TEST(RayGuide, KeepsTheMeanAndLowersTheVariance)
 {
     const std::optional<RayGuide::Table> found = learnt_from(patch);
     ASSERT_TRUE(found);
-    const GuidedDraw draw(found->probabilities);
+    const GuidedDraw draw(found->front().probabilities);
     const auto moments = [](const auto& sample) {
         glm::dvec2 sums(0.0);
         for_each_point([&](const glm::vec2& uniform) {
@@ -76,12 +76,13 @@ TEST(RayGuide, KeepsTheMeanAndLowersTheVariance)
     const glm::dvec2 even = moments(patch),
                      guided = moments([&](const glm::vec2&uniform) {
                          const GuidedDraw::Drawn drawn = draw(uniform);
-                         return double(RayGuide::weight(found->probabilities[drawn.bin])) *
+                         return double(RayGuide::weight(found->front().probabilities[drawn.bin],
+                                                        0.0f, 1.0f)) *
                                 patch(drawn.point);
                      });
     EXPECT_NEAR(guided.x, even.x, 0.005 * even.x);
     EXPECT_LT(guided.y, even.y / 5.0);
-    EXPECT_NEAR(found->gain, even.y / guided.y, 0.1 * found->gain);
+    EXPECT_NEAR(found->front().gain, even.y / guided.y, 0.1 * found->front().gain);
 }
 
 TEST(RayGuide, LeavesEvenLightToUniformRays)
@@ -103,16 +104,16 @@ TEST(RayGuide, DoesNotFollowWhatOneSolutionAloneHasSeen)
 
 TEST(RayGuide, RefusesProbabilitiesThatNoRayCouldHave)
 {
-    RayGuide guide{{0, 0}, {RayGuide::uniform()}};
+    RayGuide guide{{0, 0}, {RayGuide::all_uniform()}};
     EXPECT_TRUE(guide.fits(2));
     EXPECT_FALSE(guide.fits(3));
     guide.group[1] = 1;
     EXPECT_FALSE(guide.fits(2));
     guide.group[1] = 0;
-    guide.tables[0].gain = std::numeric_limits<float>::quiet_NaN();
+    guide.tables[0][1].gain = std::numeric_limits<float>::quiet_NaN();
     EXPECT_FALSE(guide.fits(2));
-    guide.tables[0].gain = 1.0f;
-    guide.tables[0].probabilities[5] = 0;
+    guide.tables[0][1].gain = 1.0f;
+    guide.tables[0][1].probabilities[5] = 0;
     EXPECT_FALSE(guide.fits(2));
 }
 
@@ -130,17 +131,24 @@ TEST(RayGuide, UnevenRaysBringTheSameLight)
     const LinkNumbers numbers(scene.scene.instances.size(), parts.count());
     const LinkTracer tracer(work, parts, numbers, direct, 1);
 
-    RayGuide guide{std::vector<std::uint32_t>(work.order.size(), 0), {RayGuide::uniform()}};
-    for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
-        guide.tables[0].probabilities[b] = std::uint16_t(b % 2 == 0 ? 64 : 448);
+    RayGuide guide{std::vector<std::uint32_t>(work.order.size(), 1),
+                   {RayGuide::all_uniform(), RayGuide::all_uniform()}};
+    for (RayGuide::OfSolution& of : guide.tables[1])
+        for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
+            of.probabilities[b] = std::uint16_t(b % 2 == 0 ? 64 : 448);
     ASSERT_TRUE(guide.fits(work.order.size()));
 
-    const std::vector<std::uint16_t> each(work.order.size(), 256);
     const auto light_by = [&](const RayGuide* by) {
         LinkTable links(parts.count());
-        links.rounds.emplace_back(tracer.blocks());
-        tracer.trace(0, tracer.blocks(), {each, kLinkStream, nullptr, by}, links);
-        EXPECT_TRUE(links.fits(work, parts, numbers, tracer.blocks(), 0));
+        for (const std::uint16_t rays : {std::uint16_t(64), std::uint16_t(192)}) {
+            const std::vector<std::uint16_t> each(work.order.size(), rays);
+            const auto round = std::uint32_t(links.rounds.size());
+            links.rounds.emplace_back(tracer.blocks());
+            tracer.trace(0, tracer.blocks(), {each, round, 0, nullptr, by}, links);
+        }
+        if (by)
+            tracer.weigh(*by, 0, links);
+        EXPECT_TRUE(links.fits(work, parts, numbers, tracer.blocks(), 0, by != nullptr));
         const SourceTerm source = find_source_term(
             work, parts, numbers, ReflectedLight(work, parts, numbers, direct), links);
         glm::dvec3 sum(0.0);

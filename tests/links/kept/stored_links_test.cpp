@@ -404,10 +404,11 @@ TEST(KeptLinks, TakeTheirGuideAlongWhenLumelsGetOtherNumbers)
     for (std::size_t i = 0; i < lumels; ++i)
         EXPECT_EQ(moved.group[i + 1], kept.guide.group[i]);
     ASSERT_EQ(moved.tables.size(), kept.guide.tables.size());
-    for (std::size_t g = 0; g < moved.tables.size(); ++g) {
-        EXPECT_EQ(moved.tables[g].probabilities, kept.guide.tables[g].probabilities);
-        EXPECT_EQ(moved.tables[g].gain, kept.guide.tables[g].gain);
-    }
+    for (std::size_t g = 0; g < moved.tables.size(); ++g)
+        for (std::size_t k = 0; k < kSolutions; ++k) {
+            EXPECT_EQ(moved.tables[g][k].probabilities, kept.guide.tables[g][k].probabilities);
+            EXPECT_EQ(moved.tables[g][k].gain, kept.guide.tables[g][k].gain);
+        }
 }
 
 TEST(KeptLinks, ComeBackFromAFileAsTheyWere)
@@ -468,7 +469,8 @@ TEST(KeptLinks, ForgedAreRefusedOrSound)
                      .lumels = {1, 2, 3},
                      .instances = {4},
                      .boxes = {Box{}}};
-    kept.rounds = {{.mean = 1.0, .rays = {1, 0, 2}}};
+    kept.rounds = {{.mean = 1.0}};
+    kept.rounds[0].rays.fill({1, 0, 2});
     for (std::vector<LinkEnd>& ends : kept.rounds[0].ends)
         ends = {LinkEnd::of(LinkNumbers::kSky), LinkEnd::of(kept.numbers().of_part(1), 15),
                 LinkEnd::of(LinkNumbers::kNear)};
@@ -493,9 +495,9 @@ TEST(KeptLinks, ForgedAreRefusedOrSound)
             try {
                 const StoredLinks read = read_links(path);
                 for (const StoredLinks::Round& round : read.rounds)
-                    for (const std::vector<LinkEnd>& ends : round.ends) {
-                        EXPECT_EQ(ends.size(), first_rays(round.rays).back());
-                        for (const LinkEnd end : ends)
+                    for (std::size_t k = 0; k < kSolutions; ++k) {
+                        EXPECT_EQ(round.ends[k].size(), first_rays(round.rays[k]).back());
+                        for (const LinkEnd end : round.ends[k])
                             EXPECT_LT(end.number(), read.numbers().count());
                     }
             } catch (const Error& error) {

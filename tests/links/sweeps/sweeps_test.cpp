@@ -55,9 +55,7 @@ std::vector<Link> links_of(const TracedRoom& room)
                         room.parts.has_hidden(lumel) ? round[b].from[left++] : 0u;
                     const std::uint32_t from = room.parts.part(lumel, cell);
                     const double of_ray =
-                        round[b].probabilities.empty()
-                            ? 1.0
-                            : double(RayGuide::kUniform) / double(round[b].probabilities[slot]);
+                        round[b].weights.empty() ? 1.0 : double(round[b].weights[slot]);
                     const std::vector<NearLink>& by_slot = round[b].near;
                     if (near < by_slot.size() && by_slot[near].slot == slot) {
                         add(from, by_slot[near].end,
@@ -150,14 +148,14 @@ TEST(LinkSolver, SolvesRoundsOfWeightedLinks)
 TEST(LinkSolver, TakesNoMoreThanAllRaysFromBesideASubLumel)
 {
     TracedRoom room;
-    // Three quarters of the rays go to a sixteenth of the directions; others weigh almost 4.
+    // Three quarters of the rays go to a sixteenth of the directions; others weigh 2.6.
     constexpr std::uint16_t kMany = 3076, kFew = 68;
     RayGuide guide = room.striped_guide();
-    RayGuide::Probabilities& bins = guide.tables[0].probabilities;
-    for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
-        bins[b] = b < RayGuide::kSide ? kMany : kFew;
-    room.add_round(8);
-    room.add_round(4, &guide);
+    for (RayGuide::OfSolution& of : guide.tables[1])
+        for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
+            of.probabilities[b] = b < RayGuide::kSide ? kMany : kFew;
+    room.add_round(4);
+    room.add_round(20, &guide);
     std::vector<glm::dvec3> beside(room.parts.count(), glm::dvec3(0.0));
     std::vector<double> rays(room.parts.count(), 0.0);
     for (const Link& link : links_of(room)) {

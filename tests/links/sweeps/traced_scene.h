@@ -23,9 +23,11 @@ struct TracedScene : OwnScene, bench::TracedLinks {
     /// A guide by which every other bin gets a third of the rays of its neighbours.
     RayGuide striped_guide() const
     {
-        RayGuide guide{std::vector<std::uint32_t>(work.order.size(), 0), {RayGuide::uniform()}};
-        for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
-            guide.tables[0].probabilities[b] = std::uint16_t(b % 2 == 0 ? 128 : 384);
+        RayGuide guide{std::vector<std::uint32_t>(work.order.size(), 1),
+                       {RayGuide::all_uniform(), RayGuide::all_uniform()}};
+        for (RayGuide::OfSolution& of : guide.tables[1])
+            for (std::uint32_t b = 0; b < RayGuide::kBins; ++b)
+                of.probabilities[b] = std::uint16_t(b % 2 == 0 ? 128 : 384);
         return guide;
     }
 };
