@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kMagic[] = "lumel checkpoint 5\n";
+constexpr char kMagic[] = "lumel checkpoint 6\n";
 /// Writing takes at most 1 / kRest of the time.
 constexpr double kRest = 20.0;
 

@@ -136,7 +136,7 @@ double GuideMoments::variance(std::size_t k, const RayGuide::Probabilities& prob
 }
 
 /// For the rays of a solution: each of the others tells what the other's rays gain.
-RayGuide::OfSolution GuideMoments::find(std::size_t i, std::size_t j) const
+RayGuide::OfSolution GuideMoments::learn(std::size_t i, std::size_t j) const
 {
     const RayGuide::OfSolution uniform = RayGuide::uniform();
     const double now = variance(i, uniform.probabilities) + variance(j, uniform.probabilities);
@@ -164,7 +164,7 @@ std::optional<RayGuide::Table> GuideMoments::find() const
 {
     RayGuide::Table table;
     for (std::size_t k = 0; k < kSolutions; ++k)
-        table[k] = find((k + 1) % kSolutions, (k + 2) % kSolutions);
+        table[k] = learn((k + 1) % kSolutions, (k + 2) % kSolutions);
     const auto is_uniform = [](const RayGuide::OfSolution& of) { return of.gain == 1.0f; };
     return std::ranges::all_of(table, is_uniform) ? std::nullopt : std::optional(table);
 }

@@ -105,7 +105,7 @@ public:
 private:
     using Bins = std::array<double, RayGuide::kBins>;
 
-    RayGuide::OfSolution find(std::size_t one, std::size_t other) const;
+    RayGuide::OfSolution learn(std::size_t one, std::size_t other) const;
     static RayGuide::Probabilities probabilities_for(const Bins& square, double share);
     double variance(std::size_t solution, const RayGuide::Probabilities& probabilities) const;
 

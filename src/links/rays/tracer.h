@@ -61,7 +61,7 @@ public:
     /// Weighs the rays of all rounds of a solution, of which the guide drew those after the first.
     /// All have bins. Of several ranks each weighs its own.
     void weigh(const RayGuide& guide, std::uint32_t solution, LinkTable& links) const;
-    /// Of random numbers.
+    /// Of the random numbers of a round.
     static std::uint32_t stream(std::uint32_t round, std::uint32_t solution)
     {
         return kLinkStream + std::uint32_t(kSolutions) * round + solution;

@@ -152,6 +152,7 @@ bool LinkRadiosity::learn_guide()
                      });
     share_blocks(work_.ranks, 0, learnt.size(),
                  [&](auto& archive, std::size_t b) { archive(learnt[b]); });
+    guide_ = {};
     for (const std::vector<LearntGroup>& block : learnt)
         for (const LearntGroup& group : block) {
             if (guide_.empty()) {

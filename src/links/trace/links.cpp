@@ -198,11 +198,12 @@ bool LinkRadiosity::is_consistent() const
                 is(mean_.bend.size(), lumels) && is(adapted_.size(), lumels) &&
                 traced_ <= tracer_->blocks() && means_.size() == round_ && guide_.fits(lumels) &&
                 (state_.shots > 0) == !mean_.light.empty() &&
+                (round_ > 0 || (state_.shots == 0 && (guide_.empty() || is_tracing))) &&
                 std::ranges::all_of(passes_, is_sound) && (!is_tracing || mean_rays_ > 0.0) &&
                 (stage_ != Stage::solve || traced_ == tracer_->blocks());
     for (std::size_t k = 0; k < kSolutions; ++k)
         fits = fits && links_[k]->rounds.size() == round_ + (is_tracing ? 1 : 0) &&
-               rays_[k].size() == (is_tracing || !rays_[k].empty() ? lumels : 0) &&
+               rays_[k].size() == (is_tracing || round_ > 0 ? lumels : 0) &&
                links_[k]->fits(work_, *parts_, *numbers_, traced, lamp_count(), has_bins()) &&
                swept_sky_[k].size() == (lamps_ && !mean_.light.empty() ? parts : 0) &&
                received_[k].size() >= (mean_.light.empty() ? 0 : parts) &&
@@ -240,7 +241,8 @@ void LinkRadiosity::find_light()
                     options_.outside_light);
     for (std::optional<LinkTable>& links : links_)
         links.emplace(parts_->count());
-    can_guide_ = options_.guide && !shares_directions() && mean_albedo() <= kBrightestGuided;
+    can_guide_ = options_.guide && options_.even_rays == 0 && !shares_directions() &&
+                 mean_albedo() <= kBrightestGuided;
     release();
     sealed_.emplace(work_, *parts_, *numbers_);
 }
@@ -337,7 +339,7 @@ void LinkRadiosity::weigh_rays()
     if (!has_bins())
         for (std::optional<LinkTable>& links : links_)
             for (LinkBlock& block : links->rounds.front())
-                block.bins = {};  // frees them
+                block.bins = std::vector<std::uint8_t>();  // frees them
     if (guide_.empty())
         return;
     for (std::uint32_t k = 0; k < kSolutions; ++k)

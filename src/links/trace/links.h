@@ -210,7 +210,7 @@ private:
     void add_rays_of_charts(int solution, const RayNeeds& needs, const std::vector<double>& gain,
                             std::vector<double>& rays) const;
     void share_out_rays(double most);
-    void share_out_rays(const RayNeeds& needs, double most);
+    void allocate(const RayNeeds& needs, double most);
     double rays_for(const ChartNoise& chart) const;
     static Errors errors_in(const ChartNoise& chart, std::size_t band);
     std::span<const ChartNoise> noisy_charts() const;

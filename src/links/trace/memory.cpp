@@ -14,12 +14,12 @@ namespace {
 constexpr double kLikelyRays = 64.0;
 /// [bytes] of a lumel per round and solution: number of its links.
 constexpr double kRowBytes = sizeof(std::uint16_t);
-/// [bytes] of a ray of guided lumels: its weight.
-constexpr double kWeightBytes = sizeof(float);
+/// [bytes] of a ray that may be guided: its bin; of a guided lumel, also its weight.
+constexpr double kBinBytes = sizeof(std::uint8_t), kWeightBytes = sizeof(float);
 /// [bytes] of a ray where lamps are kept apart: its shares. A tenth of the rays is near, with two
 /// to four shares each; maximum seen.
 constexpr double kShareBytes = 0.4 * double(sizeof(NearShare));
-/// [bytes] of a lumel's guide, of which 32 or more share one.
+/// [bytes] of a lumel's guide, of which about 32 or more share one.
 constexpr double kGuideBytes = sizeof(std::uint32_t) + sizeof(RayGuide::Table) / 32.0;
 /// Fraction of lumels with direct light per cell: maximum seen.
 constexpr double kVarying = 0.1;
@@ -27,7 +27,7 @@ constexpr double kVarying = 0.1;
 /// the old and the new light are in memory while a pass replaces it.
 constexpr double kVaryingByLamp = 2 * 0.5;
 constexpr double kShareOfFree = 0.5;
-/// GPU memory of a ray of the first round and of later ones, with their weights and the gaps in
+/// GPU memory of a ray in the first round, and with the weights of later ones, and the gaps in
 /// slices: 6 and 9 in the Cornell box, 6 and 13 in two rooms, 9 and 16 in a furnished one [bytes].
 constexpr double kDeviceLinkBytes = 6.0, kDeviceGuidedLinkBytes = 13.0;
 
@@ -42,7 +42,8 @@ std::uint64_t LinkRadiosity::first_bytes(std::size_t lumels, std::uint32_t even_
                                          std::size_t lamps)
 {
     const double rays = even_rays > 0 ? double(even_rays) : double(kSolutions * kFirstRays);
-    const double of_ray = kLinkBytes + (lamps > 0 ? kShareBytes : 0.0);
+    const double of_ray =
+        kLinkBytes + (even_rays > 0 ? 0.0 : kBinBytes) + (lamps > 0 ? kShareBytes : 0.0);
     return std::uint64_t(double(lumels) * (rays * of_ray + kSolutions * kRowBytes));
 }
 
@@ -54,9 +55,10 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
     double rounds = 1.0;
     for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinAdded)
         ++rounds;
-    return std::uint64_t(double(lumels) * (rays * (kLinkBytes + (lamps > 0 ? kShareBytes : 0.0)) +
-                                           (rays > kFirst ? rays : 0.0) * kWeightBytes +
-                                           rounds * kSolutions * kRowBytes));
+    return std::uint64_t(double(lumels) *
+                         (rays * (kLinkBytes + (lamps > 0 ? kShareBytes : 0.0)) +
+                          rays * (rays > kFirst ? kBinBytes + kWeightBytes : kBinBytes) +
+                          rounds * kSolutions * kRowBytes));
 }
 
 std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels,
@@ -69,8 +71,9 @@ std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, 
     const std::size_t of_parts =
         kSolutions * (kOfSources + sizeof(glm::vec3)) + kOfGroups + sizeof(glm::vec3);
     constexpr std::size_t kPasses = 8;  // of direct light, a byte each
+    constexpr std::size_t kOfRays = kSolutions * sizeof(std::uint16_t);
     const std::size_t of_lumels =
-        sizeof(WorldLumel) + kOfOrder + kOfNoise + 2 * kOfMean + sizeof(std::uint16_t) + kPasses;
+        sizeof(WorldLumel) + kOfOrder + kOfNoise + 2 * kOfMean + kOfRays + kPasses;
     const auto varying = std::size_t(kVarying * double(lumels)),
                by_lamp = std::size_t(kVaryingByLamp * double(lumels));
     return lumels * (of_lumels + of_parts) + pieces * (sizeof(Piece) + sizeof(Facet)) +
@@ -91,10 +94,9 @@ std::uint64_t LinkRadiosity::device_sweep_bytes(std::size_t lumels, std::uint64_
 {
     constexpr double kFirst = kSolutions * kFirstRays;
     const double rays = shots > 0 ? std::min(double(shots), kLikelyRays) : kLikelyRays;
-    const double first = std::min(rays, kFirst);
     return DeviceSweeps::bytes(lumels) +
-           std::uint64_t(double(lumels) *
-                         (first * kDeviceLinkBytes + (rays - first) * kDeviceGuidedLinkBytes));
+           std::uint64_t(double(lumels) * rays *
+                         (rays > kFirst ? kDeviceGuidedLinkBytes : kDeviceLinkBytes));
 }
 
 std::uint64_t LinkRadiosity::lamp_bytes(std::size_t lumels, std::size_t lamps)
@@ -130,8 +132,11 @@ double LinkRadiosity::rays_that_fit() const
         taken = std::ranges::max(work_.ranks->all(taken));
     const auto all = double(work_.order.size()),
                lumels = double(lumels_per_rank(work_.order.size(), count_of(work_.ranks)));
-    const double of_ray = state_.shots > 0 ? taken / double(state_.shots) + lumels * kWeightBytes
-                                           : lumels * kLinkBytes;
+    // The second round may give all rays weights.
+    if (can_guide_ && round_ <= 1)
+        taken += lumels * double(state_.shots) * kWeightBytes;
+    const double of_ray =
+        state_.shots > 0 ? taken / double(state_.shots) : lumels * (kLinkBytes + kBinBytes);
     const double rows = lumels * kSolutions * kRowBytes + all * kGuideBytes;
     return std::max(double(most_bytes_) - taken - rows, 0.0) / (kSolutions * of_ray);
 }

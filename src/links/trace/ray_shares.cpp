@@ -145,7 +145,8 @@ std::vector<glm::dvec3> LinkRadiosity::rays_so_far() const
 /// [N] Weighted deviation of one ray of each lumel that the filter leaves, in a solution estimated
 /// from the others: rays allocated by a solution's own light would change the result. They do so
 /// even by that of neighbours, whose rays are stratified with the lumel's: where theirs have met a
-/// lamp, its own have not. sent: rays_so_far().
+/// lamp, its own have not. Only weights and what the filter leaves are of all light, filtered.
+/// sent: rays_so_far().
 std::vector<glm::dvec3> LinkRadiosity::deviation_of_ray(const std::vector<glm::dvec3>& sent,
                                                         const std::vector<double>& weight)
 {
@@ -154,10 +155,13 @@ std::vector<glm::dvec3> LinkRadiosity::deviation_of_ray(const std::vector<glm::d
     for (std::size_t i = 0; i < raw.size(); ++i) {
         const glm::vec3 a = indirect(i, 0), b = indirect(i, 1), c = indirect(i, 2);
         const glm::dvec3 apart(glm::distance2(b, c), glm::distance2(c, a), glm::distance2(a, b));
-        // The variance of the mean, as in plain_mean(): two solutions differ by six times as much.
-        before[i] = weight[i] * (apart.x + apart.y + apart.z) / 18.0;
+        before[i] = weight[i] * (apart.x + apart.y + apart.z) / 18.0;  // as in plain_mean()
         after[i] = weight[i] * double(mean_.noise[i]);
-        raw[i] = weight[i] * sent[i] * apart / 6.0;
+        // Two solutions differ by the variance of a ray × (1 / rays of one + 1 / rays of the
+        // other).
+        const glm::dvec3 one = 1.0 / glm::max(sent[i], glm::dvec3(1.0));
+        raw[i] = weight[i] * apart /
+                 (double(kSolutions) * (glm::dvec3(one.y + one.z, one.z + one.x, one.x + one.y)));
     }
     std::vector<glm::dvec3> deviation =
         deviation_nearby(raw, work_.scene.lumels, work_.order, kReachOfOthers, 1.0);
@@ -282,13 +286,13 @@ void LinkRadiosity::add_rays_of_charts(int k, const RayNeeds& needs,
 void LinkRadiosity::share_out_rays(double most)
 {
     const RayNeeds needs = find_needs();
-    share_out_rays(needs, most);
+    allocate(needs, most);
     const double so_far = double(state_.shots) / double(kSolutions);
     if (round_ == 1 && mean_rays_ > kWorthAGuide * so_far && learn_guide())
-        share_out_rays(needs, most);
+        allocate(needs, most);
 }
 
-void LinkRadiosity::share_out_rays(const RayNeeds& needs, double most)
+void LinkRadiosity::allocate(const RayNeeds& needs, double most)
 {
     std::array<std::vector<double>, kSolutions> rays;
     double sum = 0.0, lit = 0.0;

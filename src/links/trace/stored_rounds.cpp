@@ -55,7 +55,7 @@ void LinkRadiosity::begin_known_round()
         first_rays_[k] = first_rays(round.rays[k]);
     }
     refined_ = {};
-    if (round_ == 0 && stored_->guide.fits(work_.order.size()))
+    if (round_ == 0 && !shares_directions() && stored_->guide.fits(work_.order.size()))
         guide_ = stored_->guide;
     begin_links();
 }
