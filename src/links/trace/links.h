@@ -214,6 +214,7 @@ private:
     double rays_for(const ChartNoise& chart) const;
     static Errors errors_in(const ChartNoise& chart, std::size_t band);
     std::span<const ChartNoise> noisy_charts() const;
+    std::span<const ChartNoise> charts_to_clean() const;
     std::vector<double> chart_weights() const;
     void find_visible_noise();
     std::vector<char> lit_parts() const;

@@ -30,6 +30,8 @@ constexpr double kTooFew = 0.05;
 constexpr double kNoisyLumel = 0.04, kShareOfNoisy = 0.15, kMostOfNoisy = 8.0;
 /// Distance of neighbours [texels] whose light in two solutions tells the deviation.
 constexpr int kReachOfOthers = 3;
+/// Charts whose visible noise is between these multiples of its target get rays with noisier ones.
+constexpr double kLeastBeside = 0.9, kMostBeside = 1.25;
 /// Bisection steps for the rays that all lumels add.
 constexpr int kFillSteps = 24;
 /// Minimum brightness in ray allocation, relative to the mean.
@@ -112,12 +114,31 @@ std::span<const ChartNoise> LinkRadiosity::noisy_charts() const
         std::size_t(std::ranges::partition_point(counts, is_clean) - counts.begin()));
 }
 
-/// [N] Weight of each lumel's squared error for the noise of noisy_charts(). Variances of charts
+/// noisy_charts(), and those beside the target, if there are any: else the next round would find
+/// one of them just above it, or as the worst that counts.
+std::span<const ChartNoise> LinkRadiosity::charts_to_clean() const
+{
+    const std::span<const ChartNoise> noisy = noisy_charts();
+    if (noisy.empty())
+        return noisy;
+    const auto is_below = [&](const ChartNoise& chart, double ratio) {
+        return chart.power_in(chart.worst_band()) <= std::pow(ratio * target_visible_noise_, 2.0);
+    };
+    const auto* first = noisy.data();
+    while (first > noise_.data() && !is_below(first[-1], kLeastBeside))
+        --first;
+    const auto* last = noisy.data() + noisy.size();
+    while (last < noise_.data() + noise_.size() && is_below(*last, kMostBeside))
+        ++last;
+    return {first, last};
+}
+
+/// [N] Weight of each lumel's squared error for the noise of charts_to_clean(). Variances of charts
 /// end equal if their weights are in proportion to what they are now.
 std::vector<double> LinkRadiosity::chart_weights() const
 {
     std::vector<double> weight(work_.order.size(), 0.0);
-    for (const ChartNoise& chart : noisy_charts()) {
+    for (const ChartNoise& chart : charts_to_clean()) {
         const double power = chart.power_in(chart.worst_band());
         for (const std::uint32_t i : chart.lumels) {
             const double light =
@@ -262,7 +283,7 @@ void LinkRadiosity::add_rays_of_charts(int k, const RayNeeds& needs,
                                        const std::vector<double>& gain,
                                        std::vector<double>& rays) const
 {
-    for (const ChartNoise& chart : noisy_charts()) {
+    for (const ChartNoise& chart : charts_to_clean()) {
         const double ratio = rays_for(chart);
         if (ratio <= 1.0)
             continue;
