@@ -67,7 +67,7 @@ TEST(MaxMemory, LinksStopAddingRaysBeforeTheyTakeMore)
     const Workplace place;
     const Outcome done = run_lumel({"bake", own_scene("cornell-box.gltf"), place.path("out"),
                                     "--size", "192", "--error", "0.1", "--time", "60",
-                                    "--preview-width", "0", "--max-memory", "130M"});
+                                    "--preview-width", "0", "--max-memory", "131M"});
     ASSERT_EQ(done.code, 0) << done.err;
     EXPECT_NE(done.err.find("no memory for more rays"), std::string::npos) << done.err;
     const Json report = read_json(place.path("out/report.json"));
