@@ -69,8 +69,8 @@ std::vector<Value> deviation_nearby(const std::vector<Value>& square, const Lume
             NearSquares<Value> sum = on_chart(square, lumels, by_side, i, reach);
             if (sum.count < kEnough)
                 sum = in_order(square, order, o);
-            deviation[i] = glm::sqrt(glm::max(
-                (sum.squares + own * square[i]) / std::max(sum.count + own, 1.0), Value(0.0)));
+            deviation[i] =
+                glm::sqrt((sum.squares + own * square[i]) / std::max(sum.count + own, 1.0));
         }
     });
     return deviation;

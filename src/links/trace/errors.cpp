@@ -149,8 +149,16 @@ std::vector<float> LinkRadiosity::error_estimate() const
         return error;
     const auto deviation = [&](const Mean& of, int reach) {
         std::vector<double> square(of.noise.begin(), of.noise.end());
+        double noise = 0.0, wrong = 0.0;
         for (std::size_t i = 0; i < square.size(); ++i)
-            square[i] += double(of.wrong[i]);
+            if (!work_.is_buried(i)) {
+                noise += square[i];
+                wrong += double(of.wrong[i]);
+            }
+        // The filter's bias is known on average only.
+        const double with_bias = noise > 0.0 ? std::max(1.0 + wrong / noise, 0.0) : 1.0;
+        for (double& one : square)
+            one *= with_bias;
         return deviation_nearby(square, work_.scene.lumels, work_.order, reach, 1.0);
     };
     const std::vector<double> of_rays = deviation(mean_, kIndirectReach);
