@@ -52,12 +52,14 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
 {
     constexpr double kFirst = kSolutions * kFirstRays;
     const double rays = shots > 0 ? std::min(double(shots), kLikelyRays) : kLikelyRays;
+    // Of the rays that weights are counted for, not all are guided; those of the first round can
+    // be.
     double rounds = 1.0;
     for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinAdded)
         ++rounds;
     return std::uint64_t(double(lumels) *
-                         (rays * (kLinkBytes + (lamps > 0 ? kShareBytes : 0.0)) +
-                          rays * (rays > kFirst ? kBinBytes + kWeightBytes : kBinBytes) +
+                         (rays * (kLinkBytes + (lamps > 0 ? kShareBytes : 0.0)) + rays * kBinBytes +
+                          (rays - std::min(rays, kFirst)) * kWeightBytes +
                           rounds * kSolutions * kRowBytes));
 }
 
