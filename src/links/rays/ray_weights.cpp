@@ -1,7 +1,6 @@
-// LinkTracer's weights of rays, once all rounds are known.
+// LinkTracer's weights of rays, after each round anew.
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -46,14 +45,12 @@ void LinkTracer::weigh_block(std::size_t b, const RayGuide& guide, std::uint32_t
         float all = 0.0f;
         for (const LinkRow& row : rows)
             all += float(row.ends.size());
-        std::array<float, RayGuide::kBins> weight_of;
-        for (std::uint32_t bin = 0; bin < RayGuide::kBins; ++bin)
-            weight_of[bin] = RayGuide::weight(probabilities[bin], uniform, all);
         for (std::size_t r = 0; r < rows.size(); ++r) {
             LinkBlock& block = links.rounds[r][b];
-            for (std::size_t slot = rows[r].first_slot;
-                 slot < rows[r].first_slot + rows[r].ends.size(); ++slot)
-                block.weights[slot] = weight_of[block.bins[slot]];
+            const std::size_t first = rows[r].first_slot, last = first + rows[r].ends.size();
+            for (std::size_t slot = first; slot < last; ++slot)
+                block.weights[slot] =
+                    RayGuide::weight(probabilities[block.bins[slot]], uniform, all);
         }
         sum_sky(i, rows, guide, solution, links.sky);
     }

@@ -56,7 +56,7 @@ public:
         std::optional<Known> known = std::nullopt;  ///< traces only what can have changed
     };
     /// Traces blocks [first, last) into the last round of `into`; of several ranks each traces its
-    /// own. The rays of all rounds weigh as before, those of the last one 1.
+    /// own. Rays traced before keep their weights; new ones weigh 1.
     void trace(std::size_t first, std::size_t last, const Sending& sending, LinkTable& into) const;
     /// Weighs the rays of all rounds of a solution, of which the guide drew those after the first.
     /// All have bins. Of several ranks each weighs its own.

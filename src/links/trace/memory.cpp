@@ -19,7 +19,7 @@ constexpr double kBinBytes = sizeof(std::uint8_t), kWeightBytes = sizeof(float);
 /// [bytes] of a ray where lamps are kept apart: its shares. A tenth of the rays is near, with two
 /// to four shares each; maximum seen.
 constexpr double kShareBytes = 0.4 * double(sizeof(NearShare));
-/// [bytes] of a lumel's guide, of which about 32 or more share one.
+/// [bytes] of a lumel's guide, which 32 lumels or more share, except small groups.
 constexpr double kGuideBytes = sizeof(std::uint32_t) + sizeof(RayGuide::Table) / 32.0;
 /// Fraction of lumels with direct light per cell: maximum seen.
 constexpr double kVarying = 0.1;
@@ -52,11 +52,10 @@ std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shot
 {
     constexpr double kFirst = kSolutions * kFirstRays;
     const double rays = shots > 0 ? std::min(double(shots), kLikelyRays) : kLikelyRays;
-    // Of the rays that weights are counted for, not all are guided; those of the first round can
-    // be.
     double rounds = 1.0;
     for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinAdded)
         ++rounds;
+    // Guides are not everywhere: as many rays have weights as follow the first round.
     return std::uint64_t(double(lumels) *
                          (rays * (kLinkBytes + (lamps > 0 ? kShareBytes : 0.0)) + rays * kBinBytes +
                           (rays - std::min(rays, kFirst)) * kWeightBytes +

@@ -51,9 +51,18 @@ double scale_for(double wanted, double start, const Sum& sum)
     return high;
 }
 
+/// Number of charts whose visible noise is at most `most`. charts: in_order().
+std::size_t charts_up_to(double most, std::span<const ChartNoise> charts)
+{
+    const auto is_below = [&](const ChartNoise& chart) {
+        return chart.power_in(chart.worst_band()) <= most * most;
+    };
+    return std::size_t(std::ranges::partition_point(charts, is_below) - charts.begin());
+}
+
 }  // namespace
 
-/// What the rays of the next round are allocated by; the components of a vector are of solutions.
+/// Allocates the rays of the next round. Vectors have a component for each solution.
 struct LinkRadiosity::RayNeeds {
     std::vector<glm::dvec3> sent;       ///< [N] rays so far that count
     std::vector<glm::dvec3> deviation;  ///< [N] deviation_of_ray() by weights()
@@ -106,12 +115,8 @@ std::span<const ChartNoise> LinkRadiosity::noisy_charts() const
 {
     if (!(target_visible_noise_ > 0.0) || noise_.empty())
         return {};
-    const auto is_clean = [&](const ChartNoise& chart) {
-        return chart.power_in(chart.worst_band()) <= target_visible_noise_ * target_visible_noise_;
-    };
     const auto counts = std::span(noise_).first(worst_that_counts(noise_) + 1);
-    return counts.subspan(
-        std::size_t(std::ranges::partition_point(counts, is_clean) - counts.begin()));
+    return counts.subspan(charts_up_to(target_visible_noise_, counts));
 }
 
 /// noisy_charts(), and those beside the target, if there are any: else the next round would find
@@ -120,17 +125,11 @@ std::span<const ChartNoise> LinkRadiosity::charts_to_clean() const
 {
     const std::span<const ChartNoise> noisy = noisy_charts();
     if (noisy.empty())
-        return noisy;
-    const auto is_below = [&](const ChartNoise& chart, double ratio) {
-        return chart.power_in(chart.worst_band()) <= std::pow(ratio * target_visible_noise_, 2.0);
-    };
-    const auto* first = noisy.data();
-    while (first > noise_.data() && !is_below(first[-1], kLeastBeside))
-        --first;
-    const auto* last = noisy.data() + noisy.size();
-    while (last < noise_.data() + noise_.size() && is_below(*last, kMostBeside))
-        ++last;
-    return {first, last};
+        return {};
+    const std::size_t first = charts_up_to(kLeastBeside * target_visible_noise_, noise_),
+                      last = std::max(worst_that_counts(noise_) + 1,
+                                      charts_up_to(kMostBeside * target_visible_noise_, noise_));
+    return std::span(noise_).subspan(first, last - first);
 }
 
 /// [N] Weight of each lumel's squared error for the noise of charts_to_clean(). Variances of charts
@@ -181,8 +180,8 @@ std::vector<glm::dvec3> LinkRadiosity::deviation_of_ray(const std::vector<glm::d
         // Two solutions differ by the variance of a ray × (1 / rays of one + 1 / rays of the
         // other).
         const glm::dvec3 one = 1.0 / glm::max(sent[i], glm::dvec3(1.0));
-        raw[i] = weight[i] * apart /
-                 (double(kSolutions) * (glm::dvec3(one.y + one.z, one.z + one.x, one.x + one.y)));
+        const glm::dvec3 of_others(one.y + one.z, one.z + one.x, one.x + one.y);
+        raw[i] = weight[i] * apart / (double(kSolutions) * of_others);
     }
     std::vector<glm::dvec3> deviation =
         deviation_nearby(raw, work_.scene.lumels, work_.order, kReachOfOthers, 1.0);
