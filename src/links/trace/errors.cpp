@@ -147,7 +147,7 @@ std::vector<float> LinkRadiosity::error_estimate() const
     std::vector<float> error(work_.lumels().size(), 1.0f);
     if (mean_.light.empty())
         return error;
-    const auto deviation = [&](const Mean& of, int reach) {
+    const auto deviation = [&](const Mean& of, NearReach reach) {
         std::vector<double> square(of.noise.begin(), of.noise.end());
         double noise = 0.0, wrong = 0.0;
         for (std::size_t i = 0; i < square.size(); ++i)

@@ -28,8 +28,8 @@ constexpr double kTooFew = 0.05;
 /// Relative noise above which a lumel gets more rays than the errors over all lumels ask for; the
 /// most that those add, relative to all rays so far; and to the lumel's.
 constexpr double kNoisyLumel = 0.04, kShareOfNoisy = 0.15, kMostOfNoisy = 8.0;
-/// Distance of neighbours [texels] whose light in two solutions tells the deviation.
-constexpr int kReachOfOthers = 3;
+/// Distance of neighbours whose light in two solutions tells the deviation.
+constexpr NearReach kReachOfOthers{2, 5};
 /// Charts whose visible noise is between these multiples of its target get rays with noisier ones.
 constexpr double kLeastBeside = 0.9, kMostBeside = 1.25;
 /// Bisection steps for the rays that all lumels add.

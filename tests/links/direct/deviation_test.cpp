@@ -20,9 +20,10 @@ struct Room {
         order_in_space(WorldLumels(scene.scene, scene.rays, scene.lumels));
 
     const std::vector<Lumel>& lumels() const { return scene.lumels.lumels; }
-    std::vector<double> deviation(const std::vector<double>& square, double own) const
+    std::vector<double> deviation(const std::vector<double>& square, double own,
+                                  NearReach reach = kIndirectReach) const
     {
-        return deviation_nearby(square, scene.lumels, order, kIndirectReach, own);
+        return deviation_nearby(square, scene.lumels, order, reach, own);
     }
 };
 
@@ -52,7 +53,7 @@ TEST(Deviation, OfOneChartTellsNothingOfOthers)
 TEST(Deviation, OfOneLumelIsThatOfItsNeighbours)
 {
     const Room room;
-    constexpr std::size_t kWithin = (2 * kIndirectReach + 1) * (2 * kIndirectReach + 1) - 1;
+    constexpr std::size_t kWide = 2 * kIndirectReach.most + 1, kWithin = kWide * kWide - 1;
     const std::size_t count = room.lumels().size();
     std::size_t checked = 0;
     for (std::uint32_t i = 0; i < count; i += 97) {
@@ -75,6 +76,31 @@ TEST(Deviation, OfOneLumelIsThatOfItsNeighbours)
             }
     }
     EXPECT_GT(checked, 3u);
+}
+
+/// Where few rays found a light, some neighbours have none. One lumel in 50 has a square of 50:
+/// their mean is 1 for all, but none is within two texels of most.
+TEST(Deviation, IsOfMoreNeighboursWhereFewTellIt)
+{
+    const Room room;
+    std::vector<double> square;
+    for (const Lumel& lumel : room.lumels())
+        square.push_back(lumel.texel % 50 == 0 ? 50.0 : 0.0);
+    const auto share_without = [&](NearReach reach) {
+        const std::vector<double> deviation = room.deviation(square, 0.0, reach);
+        return double(std::ranges::count(deviation, 0.0)) / double(deviation.size());
+    };
+    EXPECT_GT(share_without({2, 2}), 0.4);
+    EXPECT_LT(share_without({2, 5}), 0.15);  // rims and corners
+    // Where all tell it, more of them are asked only where a rim leaves too few.
+    std::ranges::transform(room.lumels(), square.begin(),
+                           [](const Lumel& lumel) { return 1.0 + 0.1 * (lumel.texel % 3); });
+    const std::vector<double> near = room.deviation(square, 0.0, {2, 2}),
+                              wider = room.deviation(square, 0.0, {2, 5});
+    std::size_t apart = 0;
+    for (std::size_t i = 0; i < near.size(); ++i)
+        apart += near[i] != wider[i] ? 1 : 0;
+    EXPECT_LT(apart, near.size() / 10);
 }
 
 }  // namespace
