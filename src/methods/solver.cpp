@@ -1,6 +1,5 @@
 #include "solve/solver/solver.h"
 
-#include <algorithm>
 
 #include "base/core/usage.h"
 #include "methods/options.h"
@@ -28,12 +27,10 @@ bool step_on(Solver& solver, const SolverOptions& options,
         const auto met = [](double error, double target) {
             return target <= 0.0 || (error >= 0.0 && error <= target);
         };
-        // Without a chart that is large enough nothing is seen.
-        const double seen = state.shots > 0 ? std::max(state.visible_noise.worst_chart, 0.0) : -1.0;
         if (options.has_target() && met(state.error, options.target_error) &&
             met(state.dark_error, options.target_dark_error) &&
             met(state.eye_error, options.target_quality.eye_error) &&
-            met(seen, options.target_quality.visible_noise))
+            met(state.seen_noise(), options.target_quality.visible_noise))
             return true;
         if (state.full || state.ended)
             return true;

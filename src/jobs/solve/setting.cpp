@@ -217,8 +217,7 @@ void tell_missed(const SolverOptions& options, const SolverState& state, Stages&
     tell(state.error, options.target_error, "error");
     tell(state.dark_error, options.target_dark_error, "error of dark lumels");
     tell(state.eye_error, options.target_quality.eye_error, "error relative to the light around");
-    tell(std::max(state.visible_noise.worst_chart, 0.0), options.target_quality.visible_noise,
-         "visible noise");
+    tell(state.seen_noise(), options.target_quality.visible_noise, "visible noise");
 }
 
 void tell_late(const SolverOptions& options, double before_solving, double first_light,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "links/trace/links.h"
 
@@ -149,7 +148,7 @@ bool LinkRadiosity::repeat_pass()
     add_pass(pass.aim, pass.before);
     // Unknown until the light is that of the bake, or a looser target would end the state before.
     state_.error = state_.dark_error = state_.eye_error = -1.0;
-    state_.visible_noise.worst_chart = std::numeric_limits<double>::infinity();
+    state_.visible_noise = {};
     // Whether a pass helped under the light of the bake says nothing about another.
     if (!is_same_light)
         refined_ = {};

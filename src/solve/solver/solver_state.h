@@ -1,6 +1,7 @@
 #pragma once
 // Status of a solver.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,12 @@ struct SolverState {
     bool full = false;           ///< memory is exhausted: further steps change nothing
     bool ended = false;          ///< nothing is left to do: further steps change nothing
     double begun = 0.0;          ///< progress to the first estimate, 0…1, if known
+
+    /// worst_chart, or 0 if no chart is large enough to show noise; < 0: unknown.
+    double seen_noise() const
+    {
+        return error < 0.0 ? -1.0 : std::max(visible_noise.worst_chart, 0.0);
+    }
 };
 
 }  // namespace lumel

@@ -334,6 +334,33 @@ TEST(KeptLight, OfABakeByNeedIsItsLight)
     EXPECT_GT(off(), kResidual);
 }
 
+/// A time limit can end a state before its last pass: its errors are unknown then.
+TEST(KeptLight, BeforeItsLastPassHasNoErrors)
+{
+    const SolveScene scene = two_rooms();
+    const SolveLimits limits{.target_error = 0.003};
+    LinkRadiosity bake(scene, {}, limits), over(scene, {}, limits);
+    solve(bake, limits);
+    const StoredLinks kept = bake.kept("hash");
+    ASSERT_FALSE(kept.passes.empty());
+    over.use(kept, LinkRadiosity::Then::end);
+    int before = 0;
+    SolverState state;
+    do {
+        over.step();
+        state = over.state();
+        if (state.shots == 0 || state.error >= 0.0)
+            continue;
+        ++before;
+        EXPECT_LT(state.dark_error, 0.0);
+        EXPECT_LT(state.eye_error, 0.0);
+        EXPECT_LT(state.seen_noise(), 0.0);
+    } while (!state.ended && (state.error < 0.0 || state.error > limits.target_error));
+    EXPECT_GT(before, 0);
+    EXPECT_GE(state.error, 0.0);
+    EXPECT_GE(state.seen_noise(), 0.0);
+}
+
 /// A limit of rays ends a bake right after a round, when a pass is scheduled.
 TEST(KeptLinks, AreWithoutThePassThatDidNotRun)
 {
