@@ -1,6 +1,5 @@
 #include "solve/solver/solver.h"
 
-
 #include "base/core/usage.h"
 #include "methods/options.h"
 
